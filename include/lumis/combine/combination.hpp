@@ -1,0 +1,146 @@
+// What the two estimators share: strategies with their factors, n_i in the multi-sample and c_i in the one-sample model,
+// the effective densities factor_i p_i(x), and the weights that a heuristic makes of them.
+#pragma once
+
+#include "lumis/combine/heuristics.hpp"
+#include "lumis/combine/technique.hpp"
+#include "lumis/core/strategy.hpp"
+#include "lumis/core/uniforms.hpp"
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace lumis {
+
+namespace detail {
+
+// What an integrand returns for a sample: it is called with the point if it takes one, else with the whole sample; for
+// a delta strategy it is told so.
+template <bool is_delta, class F, class S>
+[[nodiscard]] constexpr decltype(auto) evaluate(F& f, const S& sample) {
+    if constexpr (is_delta) {
+        static_assert(std::invocable<F&, decltype((sample.value)), delta_t> || std::invocable<F&, const S&, delta_t>,
+                      "a delta strategy asks the integrand for its coefficient: f(x, lumis::delta)");
+        if constexpr (std::invocable<F&, decltype((sample.value)), delta_t>) {
+            return f(sample.value, delta);
+        } else {
+            return f(sample, delta);
+        }
+    } else if constexpr (std::invocable<F&, decltype((sample.value))>) {
+        return f(sample.value);
+    } else {
+        return f(sample);
+    }
+}
+
+template <class S>
+inline constexpr bool is_delta_strategy = DeltaStrategy<std::remove_cvref_t<S>>;
+
+// Calls visit(index<0>), visit(index<1>), ..., with the index as a constant.
+template <std::size_t N, class Visit>
+constexpr void for_each_index(Visit visit) {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+        (visit(std::integral_constant<std::size_t, I>{}), ...);
+    }(std::make_index_sequence<N>{});
+}
+
+}  // namespace detail
+
+template <class Heuristic, class First, class... Rest>
+    requires(ComposableWith<Rest, First> && ...)
+class Combination {
+    using S0 = std::remove_cvref_t<First>;
+
+  public:
+    using Scalar = typename S0::Scalar;
+    using Point = typename S0::Point;
+    static constexpr std::size_t size = 1 + sizeof...(Rest);
+
+    // The effective densities factor_i p_i(x). A technique whose factor is 0 is not asked for its density.
+    [[nodiscard]] std::array<Scalar, size> densities(const Point& x) const noexcept {
+        std::array<Scalar, size> result{};
+        detail::for_each_index<size>([&](auto i) { result[i] = density<i>(x); });
+        return result;
+    }
+
+    // The weight of technique I at a point.
+    template <std::size_t I>
+    [[nodiscard]] Scalar weight(const Point& x) const noexcept {
+        return weight_given<I>(x, [&] { return density<I>(x); });
+    }
+
+    template <std::size_t I>
+    [[nodiscard]] const auto& strategy() const noexcept {
+        return std::get<I>(strategies_);
+    }
+
+  protected:
+    constexpr Combination(const Heuristic& heuristic, std::array<Scalar, size> factors,
+                          std::tuple<First, Rest...> strategies)
+        : heuristic_{heuristic}, factors_{factors}, strategies_{std::move(strategies)} {}
+
+    // What one sample of technique I adds to an estimate: its weight times f / (factor_I pdf).
+    template <std::size_t I, class F, class U>
+    [[nodiscard]] auto draw(F& f, U& uniforms) const {
+        using S = std::remove_cvref_t<std::tuple_element_t<I, std::tuple<First, Rest...>>>;
+        const auto sample = strategy<I>().sample(uniforms.template next<S::dimensions>());
+        using Value = decltype(detail::evaluate<is_delta<I>>(f, sample) * Scalar{});
+        if (!(sample.pdf > 0)) return Value{};
+        const Scalar own = factors_[I] * sample.pdf;
+        if constexpr (is_delta<I>) {
+            return Value(detail::evaluate<true>(f, sample) * (1 / own));
+        } else {
+            const Scalar weight = weight_given<I>(sample.value, [&] { return own; });
+            if (!(weight > 0)) return Value{};
+            return Value(detail::evaluate<false>(f, sample) * (weight / own));
+        }
+    }
+
+    [[nodiscard]] constexpr Scalar factor(std::size_t i) const noexcept { return factors_[i]; }
+
+  private:
+    template <std::size_t I>
+    static constexpr bool is_delta = detail::is_delta_strategy<std::tuple_element_t<I, std::tuple<First, Rest...>>>;
+
+    template <std::size_t I>
+    [[nodiscard]] Scalar density(const Point& x) const noexcept {
+        if constexpr (is_delta<I>) {
+            return 0;
+        } else {
+            return factors_[I] > 0 ? factors_[I] * strategy<I>().pdf(x) : Scalar(0);
+        }
+    }
+
+    // The weight of technique I at x, whose own effective density own() the caller may know already.
+    template <std::size_t I, class Own>
+    [[nodiscard]] Scalar weight_given(const Point& x, Own own) const noexcept {
+        if constexpr (PointHeuristic<Heuristic, Point>) {
+            return heuristic_.owns(I, x) ? Scalar(1) : Scalar(0);
+        } else if constexpr (number_of_smooth == 1 && !is_delta<I>) {
+            return own() > 0 ? Scalar(1) : Scalar(0);
+        } else {
+            std::array<Scalar, size> q{};
+            detail::for_each_index<size>([&](auto k) {
+                if constexpr (k == I) {
+                    q[k] = own();
+                } else {
+                    q[k] = density<k>(x);
+                }
+            });
+            return heuristic_(I, std::span<const Scalar>{q});
+        }
+    }
+
+    static constexpr std::size_t number_of_smooth =
+        std::size_t{!detail::is_delta_strategy<First>} + (std::size_t{!detail::is_delta_strategy<Rest>} + ... + 0);
+
+    [[no_unique_address]] Heuristic heuristic_;
+    std::array<Scalar, size> factors_;
+    std::tuple<First, Rest...> strategies_;
+};
+
+}  // namespace lumis

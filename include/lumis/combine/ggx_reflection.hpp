@@ -1,0 +1,20 @@
+// Reflection of wo by a GGX surface, sampled through its visible normals. Local frame, density per solid angle of wi:
+// D(wm) / (2 (wo.z + stretched length of wo)). What is drawn falls below the horizon with a probability that grows with
+// roughness, alpha^2 / (1 + alpha^2) at normal incidence; nothing is drawn then.
+#pragma once
+
+#include "lumis/combine/reflected.hpp"
+#include "lumis/strategies/ggx_vndf.hpp"
+
+namespace lumis {
+
+template <std::floating_point T = float>
+struct GgxReflection : Reflected<GgxVndf<T>> {
+    GgxReflection(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept
+        : Reflected<GgxVndf<T>>{wo, GgxVndf<T>{wo, alpha}} {}
+
+    // The surface, for its reflectance: ggx().brdf(wo, wi).
+    [[nodiscard]] const Ggx<T>& ggx() const noexcept { return this->normals().ggx(); }
+};
+
+}  // namespace lumis

@@ -1,0 +1,81 @@
+// A convex combination of densities, sum of c_k p_k, itself a strategy: the lobes of a layered material, several lights,
+// or a safe density mixed into a risky one (defensive sampling, Hesterberg 1995).
+#pragma once
+
+#include "lumis/combine/technique.hpp"
+#include "lumis/core/strategy.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+namespace lumis {
+
+template <class First, class... Rest>
+    requires(ComposableWith<Rest, First> && ...)
+class Mixture {
+    using S0 = std::remove_cvref_t<First>;
+    static constexpr int part_dimensions =
+        std::max({std::remove_cvref_t<First>::dimensions, std::remove_cvref_t<Rest>::dimensions...});
+
+  public:
+    using Scalar = typename S0::Scalar;
+    using Point = typename S0::Point;
+    using Measure = typename S0::Measure;
+    static constexpr int dimensions = part_dimensions + 1;
+
+    static_assert(dimensions <= 4, "a mixture of mixtures of mixtures needs more uniforms than a glm::vec holds");
+    static_assert(!(DeltaStrategy<S0> || ... || DeltaStrategy<std::remove_cvref_t<Rest>>),
+                  "a delta strategy has no density to mix: select it by one_sample");
+
+    // Parts of probability 0 are left out. Where the probabilities sum to less than 1, the rest draws nothing.
+    explicit constexpr Mixture(Choose<First> first, Choose<Rest>... rest)
+        : probabilities_{first.probability, rest.probability...},
+          parts_{std::forward<First>(first.strategy), std::forward<Rest>(rest.strategy)...} {}
+
+    // u.x selects the part, which gets the other numbers: stretching u.x for it would leave a rare part few bits.
+    [[nodiscard]] Sample<Point, Scalar> sample(glm::vec<dimensions, Scalar> u) const noexcept {
+        Sample<Point, Scalar> result{};
+        Scalar remaining = u.x;
+        bool selected = false;
+        for_each_part([&](auto probability, const auto& part) {
+            if (!selected && remaining < probability) {
+                selected = true;
+                const auto drawn = part.sample(without_first<std::remove_cvref_t<decltype(part)>::dimensions>(u));
+                if (drawn.pdf > 0) result = {drawn.value, pdf(drawn.value)};
+            }
+            remaining -= probability;
+        });
+        return result;
+    }
+
+    [[nodiscard]] Scalar pdf(const Point& x) const noexcept {
+        Scalar sum = 0;
+        for_each_part([&](auto probability, const auto& part) {
+            if (probability > 0) sum += probability * part.pdf(x);
+        });
+        return sum;
+    }
+
+  private:
+    template <int N>
+    static glm::vec<N, Scalar> without_first(glm::vec<dimensions, Scalar> u) noexcept {
+        glm::vec<N, Scalar> rest;
+        for (int i = 0; i < N; ++i) rest[i] = u[i + 1];
+        return rest;
+    }
+
+    template <class Visit>
+    constexpr void for_each_part(Visit visit) const {
+        [&]<std::size_t... I>(std::index_sequence<I...>) {
+            (visit(probabilities_[I], std::get<I>(parts_)), ...);
+        }(std::index_sequence_for<First, Rest...>{});
+    }
+
+    std::array<Scalar, 1 + sizeof...(Rest)> probabilities_;
+    std::tuple<First, Rest...> parts_;
+};
+
+}  // namespace lumis

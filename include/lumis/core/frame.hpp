@@ -1,0 +1,44 @@
+// An orthonormal right-handed frame; its local +z is the normal.
+#pragma once
+
+#include "lumis/core/sample.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <concepts>
+
+namespace lumis {
+
+template <std::floating_point T = float>
+class Frame {
+  public:
+    // Any frame around a unit normal (Duff et al. 2017, "Building an Orthonormal Basis, Revisited", listing 3).
+    explicit Frame(const Direction<T>& normal) noexcept : normal_{normal} {
+        const T sign = std::copysign(T(1), normal.z);
+        const T a = T(-1) / (sign + normal.z);
+        const T b = normal.x * normal.y * a;
+        tangent_ = {T(1) + sign * normal.x * normal.x * a, sign * b, -sign * normal.x};
+        bitangent_ = {b, sign + normal.y * normal.y * a, -normal.y};
+    }
+
+    // Three orthonormal vectors as they are: for anisotropic materials.
+    constexpr Frame(const Direction<T>& tangent, const Direction<T>& bitangent, const Direction<T>& normal) noexcept
+        : tangent_{tangent}, bitangent_{bitangent}, normal_{normal} {}
+
+    [[nodiscard]] constexpr Direction<T> to_world(const Direction<T>& v) const noexcept {
+        return v.x * tangent_ + v.y * bitangent_ + v.z * normal_;
+    }
+    [[nodiscard]] constexpr Direction<T> to_local(const Direction<T>& v) const noexcept {
+        return {glm::dot(v, tangent_), glm::dot(v, bitangent_), glm::dot(v, normal_)};
+    }
+
+    [[nodiscard]] constexpr const Direction<T>& tangent() const noexcept { return tangent_; }
+    [[nodiscard]] constexpr const Direction<T>& bitangent() const noexcept { return bitangent_; }
+    [[nodiscard]] constexpr const Direction<T>& normal() const noexcept { return normal_; }
+
+  private:
+    Direction<T> tangent_, bitangent_, normal_;
+};
+
+}  // namespace lumis

@@ -1,0 +1,26 @@
+// Measures: what a density is a density of. Each is a type, so that two densities of different kinds cannot be mixed.
+#pragma once
+
+#include "lumis/core/sample.hpp"
+
+#include <cmath>
+#include <concepts>
+
+namespace lumis {
+
+namespace measure {
+struct SolidAngle {};  // of directions, in steradians
+struct Area {};        // of surface points, in the scene's units squared
+struct Lebesgue {};    // of points of [0,1]^d or R^d
+struct Counting {};    // of indices: the density is a probability
+}  // namespace measure
+
+// The one place where a density per area becomes one per solid angle: pdf_area distance^2 / |cos_light|, with the
+// distance to the surface point and the cosine there between the surface normal and the direction (Veach 1997, eq. 8.2).
+// Yields 0 where no density can be formed: edge-on, at distance 0, for a surface without area.
+template <std::floating_point T>
+[[nodiscard]] T area_to_solid_angle(T pdf_area, T distance, T cos_light) noexcept {
+    return density_or_zero(pdf_area * distance * distance / std::abs(cos_light));
+}
+
+}  // namespace lumis

@@ -1,0 +1,54 @@
+// The concepts that everything composes by. A strategy is a distribution one can draw from and evaluate.
+#pragma once
+
+#include "lumis/core/measure.hpp"
+#include "lumis/core/sample.hpp"
+
+#include <glm/ext/vector_double1.hpp>
+#include <glm/ext/vector_float1.hpp>
+#include <glm/vec4.hpp>
+
+#include <concepts>
+
+namespace lumis {
+
+// The uniforms that S spends on a sample, each in [0, 1); exactly 1 is tolerated.
+template <class S>
+using UniformsOf = glm::vec<S::dimensions, typename S::Scalar>;
+
+// sample(u) draws a point and reports pdf(point); pdf(x) is total: 0 off the support, never negative, never NaN.
+// Both are pure, noexcept, and take numbers, never a generator, so that any sampler fits (Sobol, Halton, a host's own).
+template <class S>
+concept Strategy =
+    std::floating_point<typename S::Scalar> && std::integral<std::remove_cv_t<decltype(S::dimensions)>> &&
+    requires(const S strategy, UniformsOf<S> u, typename S::Point x) {
+        typename S::Measure;
+        { strategy.sample(u).value } -> std::convertible_to<typename S::Point>;
+        { strategy.sample(u).pdf } -> std::convertible_to<typename S::Scalar>;
+        { strategy.pdf(x) } -> std::convertible_to<typename S::Scalar>;
+    };
+
+// invert(sample(u).value) == u up to rounding.
+template <class S>
+concept InvertibleStrategy = Strategy<S> && requires(const S strategy, typename S::Point x) {
+    { strategy.invert(x) } -> std::convertible_to<UniformsOf<S>>;
+};
+
+// Draws from a set of measure zero: pdf(x) is 0 everywhere, and sample(u).pdf is a probability.
+template <class S>
+concept DeltaStrategy = Strategy<S> && requires { requires S::is_delta; };
+
+// Tells an integrand that its point came from a delta strategy and that it is asked for the coefficient.
+struct delta_t {
+    explicit delta_t() = default;
+};
+inline constexpr delta_t delta{};
+
+// A whole sample, for integrands that want more than the point: [](const AnySample auto& s) { ... s.value ... }.
+template <class S>
+concept AnySample = requires(const S s) {
+    s.value;
+    s.pdf;
+};
+
+}  // namespace lumis

@@ -1,0 +1,119 @@
+// Sources of uniforms in [0, 1). Scaling an integer to float, and some standard library distributions, can round up to
+// exactly 1; the adaptors here cannot.
+#pragma once
+
+#include <glm/ext/vector_double1.hpp>
+#include <glm/ext/vector_float1.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <bit>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <type_traits>
+#include <utility>
+
+namespace lumis {
+
+// next<N>() yields N uniforms at once; x is drawn first.
+template <class U, class T>
+concept UniformSource = std::floating_point<T> && requires(U uniforms) {
+    { uniforms.template next<1>() } -> std::convertible_to<glm::vec<1, T>>;
+    { uniforms.template next<2>() } -> std::convertible_to<glm::vec<2, T>>;
+    { uniforms.template next<3>() } -> std::convertible_to<glm::vec<3, T>>;
+    { uniforms.template next<4>() } -> std::convertible_to<glm::vec<4, T>>;
+};
+
+// A uniform is a point k / 2^digits of the lattice that T can hold evenly: 2^24 of them in float, 2^53 in double.
+template <std::floating_point T>
+inline constexpr int uniform_bits = std::numeric_limits<T>::digits;
+
+// The lattice index of u; u == 1, which no source of ours yields, counts as the last one.
+template <std::floating_point T>
+[[nodiscard]] constexpr std::uint64_t lattice_index(T u) noexcept {
+    constexpr auto size = std::uint64_t{1} << uniform_bits<T>;
+    const auto index = static_cast<std::uint64_t>(u * static_cast<T>(size));
+    return index < size ? index : size - 1;
+}
+
+namespace detail {
+
+template <int N, class T, class F>
+[[nodiscard]] constexpr glm::vec<N, T> fill(F&& draw) {
+    glm::vec<N, T> u;
+    for (int i = 0; i < N; ++i) u[i] = draw();
+    return u;
+}
+
+}  // namespace detail
+
+// Any standard uniform random bit generator as a source. Uniforms{engine} draws from the caller's engine and advances
+// it; Uniforms{Engine{seed}} owns the one it is given, and so does Uniforms<Engine, T> spelt out.
+template <class Urbg, std::floating_point T = float>
+class Uniforms {
+    using Engine = std::remove_reference_t<Urbg>;
+    static_assert(std::uniform_random_bit_generator<Engine>);
+
+  public:
+    constexpr explicit Uniforms(Urbg engine) : engine_{std::forward<Urbg>(engine)} {}
+
+    template <int N>
+    [[nodiscard]] constexpr glm::vec<N, T> next() {
+        return detail::fill<N, T>([this] { return static_cast<T>(bits()) * spacing; });
+    }
+
+  private:
+    static constexpr T spacing = T(1) / static_cast<T>(std::uint64_t{1} << uniform_bits<T>);
+
+    // uniform_bits<T> fair bits: the top ones of a draw if the generator yields a full word, else by the standard way.
+    constexpr std::uint64_t bits() {
+        constexpr std::uint64_t range = Engine::max() - Engine::min();
+        constexpr int width = std::bit_width(range);
+        if constexpr (std::has_single_bit(range + 1) || range + 1 == 0) {
+            if constexpr (width >= uniform_bits<T>) {
+                return static_cast<std::uint64_t>(engine_() - Engine::min()) >> (width - uniform_bits<T>);
+            } else if constexpr (2 * width >= uniform_bits<T>) {
+                const auto high = static_cast<std::uint64_t>(engine_() - Engine::min()) << width;
+                return (high | static_cast<std::uint64_t>(engine_() - Engine::min())) >> (2 * width - uniform_bits<T>);
+            }
+        }
+        return std::uniform_int_distribution<std::uint64_t>{0, (std::uint64_t{1} << uniform_bits<T>)-1}(engine_);
+    }
+
+    Urbg engine_;
+};
+
+template <class Urbg>
+Uniforms(Urbg&) -> Uniforms<Urbg&, float>;
+template <class Urbg>
+    requires(!std::is_lvalue_reference_v<Urbg>)
+Uniforms(Urbg&&) -> Uniforms<Urbg, float>;
+
+// A host's own "give me the next number" as a source; what it returns at or above 1 becomes the largest number below 1.
+template <std::floating_point T, class F>
+class UniformsFrom {
+  public:
+    constexpr explicit UniformsFrom(F nullary) : nullary_{std::move(nullary)} {}
+
+    template <int N>
+    [[nodiscard]] constexpr glm::vec<N, T> next() {
+        return detail::fill<N, T>([this] {
+            constexpr T below_one = T(1) - std::numeric_limits<T>::epsilon() / 2;
+            const T u = static_cast<T>(nullary_());
+            return u < T(1) ? u : below_one;
+        });
+    }
+
+  private:
+    F nullary_;
+};
+
+template <std::floating_point T, class F>
+[[nodiscard]] constexpr auto uniforms_from(F nullary) {
+    return UniformsFrom<T, F>{std::move(nullary)};
+}
+
+}  // namespace lumis

@@ -1,0 +1,59 @@
+// Count, mean and variance of a stream of numbers, by Welford's update and Chan, Golub and LeVeque's merge (1979), in
+// double whatever is added: the mean of 1e8 floats keeps its digits, and so does a small variance about a large mean.
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+
+namespace lumis {
+
+template <std::floating_point T = double>
+class RunningMoments {
+  public:
+    // A number that is not finite is counted in rejected() and enters nothing else.
+    void add(T value) noexcept {
+        if (!std::isfinite(value)) {
+            ++rejected_;
+            return;
+        }
+        ++count_;
+        const double from_old_mean = double{value} - mean_;
+        mean_ += from_old_mean / static_cast<double>(count_);
+        squares_ += from_old_mean * (double{value} - mean_);
+    }
+
+    // As if everything added to `other` had been added here.
+    void merge(const RunningMoments& other) noexcept {
+        rejected_ += other.rejected_;
+        if (other.count_ == 0) return;
+        const auto mine = static_cast<double>(count_), theirs = static_cast<double>(other.count_);
+        const double between = other.mean_ - mean_;
+        mean_ += between * (theirs / (mine + theirs));
+        squares_ += other.squares_ + between * between * (mine * theirs / (mine + theirs));
+        count_ += other.count_;
+    }
+
+    [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
+    [[nodiscard]] std::uint64_t rejected() const noexcept { return rejected_; }
+
+    // 0 of nothing.
+    [[nodiscard]] double mean() const noexcept { return mean_; }
+
+    // Unbiased (divided by count - 1); NaN for fewer than two numbers.
+    [[nodiscard]] double variance() const noexcept {
+        return count_ > 1 ? squares_ / static_cast<double>(count_ - 1) : std::numeric_limits<double>::quiet_NaN();
+    }
+
+    // Of the mean; NaN for fewer than two numbers.
+    [[nodiscard]] double standard_error() const noexcept { return std::sqrt(variance() / static_cast<double>(count_)); }
+
+  private:
+    std::uint64_t count_{};
+    std::uint64_t rejected_{};
+    double mean_{};
+    double squares_{};  // sum of squared deviations from the mean
+};
+
+}  // namespace lumis

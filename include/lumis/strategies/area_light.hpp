@@ -1,0 +1,102 @@
+// A light of finite area as a distribution of directions from a reference point. World space, density per solid angle.
+// ByArea draws a surface point evenly and converts the density; BySolidAngle draws a direction evenly over what is seen.
+#pragma once
+
+#include "lumis/core/measure.hpp"
+#include "lumis/core/strategy.hpp"
+#include "lumis/strategies/flat_view.hpp"
+#include "lumis/strategies/shapes.hpp"
+#include "lumis/strategies/sphere_view.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <concepts>
+#include <limits>
+#include <type_traits>
+
+namespace lumis {
+
+struct ByArea {};
+struct BySolidAngle {};
+
+template <class Shape, class Sampling = ByArea>
+class AreaLight;
+
+namespace detail {
+
+template <class Shape>
+struct ViewOf : std::type_identity<FlatView<Shape>> {};
+template <std::floating_point T>
+struct ViewOf<Sphere<T>> : std::type_identity<SphereView<T>> {};
+
+}  // namespace detail
+
+// A shape without area, seen edge-on or from distance 0 draws nothing.
+template <class Shape>
+class AreaLight<Shape, ByArea> {
+  public:
+    using Scalar = typename Shape::Scalar;
+    using Point = Direction<Scalar>;
+    using Measure = measure::SolidAngle;
+    static constexpr int dimensions = 2;
+
+    AreaLight(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept : view_{shape, reference_point} {}
+
+    [[nodiscard]] LightSample<Point, Scalar> sample(glm::vec<2, Scalar> u) const noexcept {
+        const auto [position, cos_times_distance] = view_.sample(u);
+        const Scalar distance = glm::length(position);
+        if (!(distance > 0 && distance <= std::numeric_limits<Scalar>::max())) return {};
+        return {position / distance, pdf_from_hit(distance, cos_times_distance / distance), distance};
+    }
+
+    [[nodiscard]] Scalar pdf(const Point& w) const noexcept {
+        const auto hit = view_.intersect(w);
+        return hit.distance > 0 ? pdf_from_hit(hit.distance, hit.cos_light) : Scalar(0);
+    }
+
+    // For hosts that already know where a ray hit this light: the distance, and the cosine between the ray and the
+    // surface normal there, of either sign.
+    [[nodiscard]] Scalar pdf_from_hit(Scalar distance, Scalar cos_light) const noexcept {
+        return area_to_solid_angle(1 / view_.area(), distance, cos_light);
+    }
+
+    [[nodiscard]] Scalar area() const noexcept { return view_.area(); }
+
+  private:
+    typename detail::ViewOf<Shape>::type view_;
+};
+
+// The sphere's cone of directions evenly (Shirley, Wang and Zimmerman 1996); from inside, all directions evenly.
+template <std::floating_point T>
+class AreaLight<Sphere<T>, BySolidAngle> {
+  public:
+    using Scalar = T;
+    using Point = Direction<T>;
+    using Measure = measure::SolidAngle;
+    static constexpr int dimensions = 2;
+
+    AreaLight(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point) noexcept
+        : view_{sphere, reference_point}, pdf_{density_or_zero(1 / view_.solid_angle())} {}
+
+    // u.x = 0 is the centre of the cone.
+    [[nodiscard]] LightSample<Point, T> sample(glm::vec<2, T> u) const noexcept {
+        if (!(pdf_ > 0)) return {};
+        const auto [direction, distance] = view_.direction(u);
+        return {direction, pdf_, distance};
+    }
+
+    [[nodiscard]] T pdf(const Point& w) const noexcept { return view_.contains(w) ? pdf_ : T(0); }
+
+    [[nodiscard]] T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
+
+    [[nodiscard]] T solid_angle() const noexcept { return view_.solid_angle(); }
+
+  private:
+    SphereView<T> view_;
+    T pdf_;
+};
+
+template <class Shape, class T>
+AreaLight(Shape, glm::vec<3, T>) -> AreaLight<Shape, ByArea>;
+
+}  // namespace lumis

@@ -1,0 +1,36 @@
+// Directions about +z with density cos(theta) / pi per solid angle: importance sampling of a Lambertian surface.
+// Local frame. Malley's method on polar coordinates of the disk (Pharr, Jakob and Humphreys 2023, section A.5.3).
+#pragma once
+
+#include "lumis/core/spherical.hpp"
+#include "lumis/core/strategy.hpp"
+
+#include <cmath>
+#include <concepts>
+#include <numbers>
+
+namespace lumis {
+
+template <std::floating_point T = float>
+struct CosineHemisphere {
+    using Scalar = T;
+    using Point = Direction<T>;
+    using Measure = measure::SolidAngle;
+    static constexpr int dimensions = 2;
+
+    // u.x = sin^2(theta), u.y = phi / 2 pi. z = sqrt(1 - u.x) has no cancellation; u.x == 1 draws nothing.
+    [[nodiscard]] Sample<Point, T> sample(glm::vec<2, T> u) const noexcept {
+        const T radius = std::sqrt(u.x);
+        const auto circle = unit_circle(u.y);
+        const Point w{radius * circle.x, radius * circle.y, std::sqrt(1 - u.x)};
+        return {w, pdf(w)};
+    }
+
+    [[nodiscard]] T pdf(const Point& w) const noexcept { return w.z > 0 ? w.z * std::numbers::inv_pi_v<T> : T(0); }
+
+    [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept {
+        return {w.x * w.x + w.y * w.y, turn_of(w.x, w.y)};
+    }
+};
+
+}  // namespace lumis

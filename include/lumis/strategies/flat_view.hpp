@@ -1,0 +1,92 @@
+// A triangle or parallelogram as seen from a reference point: points on it evenly by area, and rays that meet it.
+// Vertices are taken relative to the reference point before anything else, and edges before that, so that a scene far
+// from its origin loses no more than its coordinates have lost already.
+#pragma once
+
+#include "lumis/strategies/shapes.hpp"
+#include "lumis/strategies/surface.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <limits>
+
+namespace lumis {
+
+template <class Shape>
+class FlatView {
+    using T = typename Shape::Scalar;
+    static constexpr bool is_triangle = std::same_as<Shape, Triangle<T>>;
+
+  public:
+    FlatView(const Shape& shape, const glm::vec<3, T>& reference_point) noexcept
+        requires is_triangle
+        : FlatView{shape.a - reference_point, shape.b - shape.a, shape.c - shape.a} {}
+
+    FlatView(const Shape& shape, const glm::vec<3, T>& reference_point) noexcept
+        requires(!is_triangle)
+        : FlatView{shape.corner - reference_point, shape.edge_u, shape.edge_v} {}
+
+    [[nodiscard]] T area() const noexcept { return area_; }
+
+    // u in [0,1]^2. Triangles by the square-root map (Turk 1990), which folds nothing and so keeps strata together.
+    [[nodiscard]] SurfaceSample<T> sample(glm::vec<2, T> u) const noexcept {
+        T s = u.x, t = u.y;
+        if constexpr (is_triangle) {
+            const T root = std::sqrt(u.x);
+            s = root * (1 - u.y);
+            t = root * u.y;
+        }
+        return {scale_ * (corner_ + s * edge_u_ + t * edge_v_), height_};
+    }
+
+    // w: unit. By triple products (Moller and Trumbore 1997). The edges give way by the rounding of w, so that a
+    // direction drawn to a point on an edge meets it.
+    [[nodiscard]] SurfaceHit<T> intersect(const Direction<T>& w) const noexcept {
+        const T cos_light = glm::dot(w, normal_);
+        const T distance = height_ / cos_light;
+        const T determinant = cos_light * unit_area_;
+        const T s = glm::dot(w, across_u_) / determinant, slack_s = rounding_u_ / std::abs(determinant);
+        const T t = glm::dot(w, across_v_) / determinant, slack_t = rounding_v_ / std::abs(determinant);
+        const bool below_far_edges =
+            is_triangle ? s + t <= 1 + slack_s + slack_t : s <= 1 + slack_s && t <= 1 + slack_t;
+        if (!(distance > 0 && s >= -slack_s && t >= -slack_t && below_far_edges)) return {};
+        return {distance, cos_light};
+    }
+
+  private:
+    // Worked in units of the longest edge: squares of tiny or huge edges would leave float's range.
+    FlatView(const glm::vec<3, T>& corner, const glm::vec<3, T>& edge_u, const glm::vec<3, T>& edge_v) noexcept
+        : scale_{std::max(longest_component(edge_u), longest_component(edge_v))},
+          corner_{corner / scale_},
+          edge_u_{edge_u / scale_},
+          edge_v_{edge_v / scale_},
+          across_u_{glm::cross(edge_v_, corner_)},
+          across_v_{glm::cross(corner_, edge_u_)} {
+        constexpr T rounding = 4 * std::numeric_limits<T>::epsilon();
+        const glm::vec<3, T> normal = glm::cross(edge_u_, edge_v_);
+        unit_area_ = glm::length(normal);
+        normal_ = normal / unit_area_;
+        height_ = scale_ * glm::dot(corner_, normal_);
+        area_ = unit_area_ * scale_ * scale_ * (is_triangle ? T(0.5) : T(1));
+        rounding_u_ = rounding * longest_component(across_u_);
+        rounding_v_ = rounding * longest_component(across_v_);
+    }
+
+    static T longest_component(const glm::vec<3, T>& v) noexcept {
+        return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    }
+
+    T scale_;
+    glm::vec<3, T> corner_, edge_u_, edge_v_;  // relative to the reference point, in units of scale_
+    glm::vec<3, T> across_u_, across_v_;       // a ray's s and t are its triple products with these
+    T unit_area_;                              // of the parallelogram of the edges, in units of scale_^2
+    Direction<T> normal_;
+    T height_;                   // of the plane over the reference point, along the normal; signed
+    T area_;                     // of the shape
+    T rounding_u_, rounding_v_;  // by how much the triple products move when w is rounded
+};
+
+}  // namespace lumis

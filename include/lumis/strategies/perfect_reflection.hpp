@@ -1,0 +1,31 @@
+// The one direction into which a mirror reflects wo. Local frame; a delta strategy: no density, probability 1.
+#pragma once
+
+#include "lumis/core/strategy.hpp"
+
+namespace lumis {
+
+template <std::floating_point T = float>
+class PerfectReflection {
+  public:
+    using Scalar = T;
+    using Point = Direction<T>;
+    using Measure = measure::SolidAngle;
+    static constexpr int dimensions = 2;  // as its glossy kin, so that a host's sampler keeps its dimensions aligned
+    static constexpr bool is_delta = true;
+
+    // wo: unit; on or below the horizon nothing is drawn.
+    constexpr explicit PerfectReflection(const Direction<T>& wo) noexcept : wo_{wo} {}
+
+    [[nodiscard]] constexpr Sample<Point, T> sample(glm::vec<2, T>) const noexcept {
+        if (!(wo_.z > 0)) return {};
+        return {{-wo_.x, -wo_.y, wo_.z}, T(1)};
+    }
+
+    [[nodiscard]] constexpr T pdf(const Point&) const noexcept { return 0; }
+
+  private:
+    Direction<T> wo_;
+};
+
+}  // namespace lumis

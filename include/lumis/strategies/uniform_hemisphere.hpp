@@ -1,0 +1,34 @@
+// Directions about +z with the constant density 1 / (2 pi) per solid angle. Local frame.
+// Archimedes' map: the height is uniform (Pharr, Jakob and Humphreys 2023, section A.5.2).
+#pragma once
+
+#include "lumis/core/spherical.hpp"
+#include "lumis/core/strategy.hpp"
+
+#include <concepts>
+#include <numbers>
+
+namespace lumis {
+
+template <std::floating_point T = float>
+struct UniformHemisphere {
+    using Scalar = T;
+    using Point = Direction<T>;
+    using Measure = measure::SolidAngle;
+    static constexpr int dimensions = 2;
+
+    // u.x = 1 - cos(theta), u.y = phi / 2 pi; u.x == 1 draws nothing.
+    [[nodiscard]] Sample<Point, T> sample(glm::vec<2, T> u) const noexcept {
+        const Point w = direction_at(u.x, u.y);
+        return {w, pdf(w)};
+    }
+
+    [[nodiscard]] T pdf(const Point& w) const noexcept { return w.z > 0 ? std::numbers::inv_pi_v<T> / 2 : T(0); }
+
+    // The versine of a steep direction comes from its sine: 1 - z would have lost it.
+    [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept {
+        return {(w.x * w.x + w.y * w.y) / (1 + w.z), turn_of(w.x, w.y)};
+    }
+};
+
+}  // namespace lumis
