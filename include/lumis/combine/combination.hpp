@@ -2,6 +2,7 @@
 // the effective densities factor_i p_i(x), and the weights that a heuristic makes of them.
 #pragma once
 
+#include "lumis/combine/for_each_index.hpp"
 #include "lumis/combine/heuristics.hpp"
 #include "lumis/combine/technique.hpp"
 #include "lumis/core/strategy.hpp"
@@ -40,18 +41,10 @@ template <bool is_delta, class F, class S>
 template <class S>
 inline constexpr bool is_delta_strategy = DeltaStrategy<std::remove_cvref_t<S>>;
 
-// Calls visit(index<0>), visit(index<1>), ..., with the index as a constant.
-template <std::size_t N, class Visit>
-constexpr void for_each_index(Visit visit) {
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-        (visit(std::integral_constant<std::size_t, I>{}), ...);
-    }(std::make_index_sequence<N>{});
-}
-
 }  // namespace detail
 
 template <class Heuristic, class First, class... Rest>
-    requires(ComposableWith<Rest, First> && ...)
+    requires Composable<First, Rest...>
 class Combination {
     using S0 = std::remove_cvref_t<First>;
 

@@ -38,7 +38,8 @@ template <std::floating_point T, class Term>
     for (std::size_t k = 0; k < densities.size(); ++k) {
         if (k != own) sum += term(densities[k], densities[own]);
     }
-    if (densities[own] > 0 && sum >= 1) [[likely]] return 1 / sum;
+    if (densities[own] > 0 && sum >= 1) [[likely]]
+        return 1 / sum;
     return weight_without_ratios(own, densities);
 }
 
@@ -66,16 +67,19 @@ struct PowerHeuristic {
     }
 };
 
-// All weight to the largest density, to the first of several.
+// All weight to the largest density; several that are equal share it, so that no order of the techniques matters.
 struct MaximumHeuristic {
     template <std::floating_point T>
     [[nodiscard]] T operator()(std::size_t own, std::span<const T> densities) const noexcept {
-        for (std::size_t k = 0; k < densities.size(); ++k) {
-            LUMIS_ASSERT(!std::isnan(densities[k]));
-            if (std::isnan(densities[k]) || densities[k] > densities[own]) return 0;
-            if (k < own && densities[k] == densities[own]) return 0;
+        bool largest = densities[own] > 0;
+        int equal = 0;
+        for (const T density : densities) {
+            LUMIS_ASSERT(!std::isnan(density));
+            if (std::isnan(density)) return 0;
+            largest = largest && density <= densities[own];
+            equal += density == densities[own];
         }
-        return densities[own] > 0 ? T(1) : T(0);
+        return largest ? T(1) / static_cast<T>(equal) : T(0);
     }
 };
 
@@ -87,9 +91,8 @@ struct CutoffHeuristic {
     [[nodiscard]] T operator()(std::size_t own, std::span<const T> densities) const noexcept {
         const T largest = *std::ranges::max_element(densities);
         const T threshold = static_cast<T>(alpha) * largest;
-        if (densities[own] < threshold) return 0;
-        return detail::weight_by_ratios(own, densities,
-                                        [&](T p, T p_own) { return p < threshold ? T(0) : p / p_own; });
+        if (densities[own] < threshold) return detail::weight_without_ratios(own, densities);
+        return detail::weight_by_ratios(own, densities, [&](T p, T p_own) { return p < threshold ? T(0) : p / p_own; });
     }
 };
 

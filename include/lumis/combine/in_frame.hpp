@@ -34,9 +34,7 @@ class InFrame {
 
     [[nodiscard]] Scalar pdf(const Point& w) const noexcept { return local_.pdf(frame_.to_local(w)); }
 
-    [[nodiscard]] UniformsOf<Local> invert(const Point& w) const noexcept
-        requires InvertibleStrategy<Local>
-    {
+    [[nodiscard]] UniformsOf<Local> invert(const Point& w) const noexcept requires InvertibleStrategy<Local> {
         return local_.invert(frame_.to_local(w));
     }
 

@@ -2,6 +2,7 @@
 // or a safe density mixed into a risky one (defensive sampling, Hesterberg 1995).
 #pragma once
 
+#include "lumis/combine/for_each_index.hpp"
 #include "lumis/combine/technique.hpp"
 #include "lumis/core/strategy.hpp"
 
@@ -14,7 +15,7 @@
 namespace lumis {
 
 template <class First, class... Rest>
-    requires(ComposableWith<Rest, First> && ...)
+    requires Composable<First, Rest...>
 class Mixture {
     using S0 = std::remove_cvref_t<First>;
     static constexpr int part_dimensions =
@@ -67,11 +68,10 @@ class Mixture {
         return rest;
     }
 
+    // Calls visit(probability, part) for each part.
     template <class Visit>
     constexpr void for_each_part(Visit visit) const {
-        [&]<std::size_t... I>(std::index_sequence<I...>) {
-            (visit(probabilities_[I], std::get<I>(parts_)), ...);
-        }(std::index_sequence_for<First, Rest...>{});
+        detail::for_each_index<1 + sizeof...(Rest)>([&](auto i) { visit(probabilities_[i], std::get<i>(parts_)); });
     }
 
     std::array<Scalar, 1 + sizeof...(Rest)> probabilities_;

@@ -33,7 +33,7 @@ class MultiSample : public Combination<Heuristic, S...> {
 };
 
 template <class Heuristic, class First, class... Rest>
-    requires(ComposableWith<Rest, First> && ...)
+    requires Composable<First, Rest...>
 [[nodiscard]] constexpr auto multi_sample(const Heuristic& heuristic, Take<First> first, Take<Rest>... rest) {
     return MultiSample<Heuristic, First, Rest...>{heuristic, std::move(first), std::move(rest)...};
 }

@@ -35,7 +35,7 @@ class OneSample : public Combination<Heuristic, S...> {
 };
 
 template <class Heuristic, class First, class... Rest>
-    requires(ComposableWith<Rest, First> && ...)
+    requires Composable<First, Rest...>
 [[nodiscard]] constexpr auto one_sample(const Heuristic& heuristic, Choose<First> first, Choose<Rest>... rest) {
     return OneSample<Heuristic, First, Rest...>{heuristic, std::move(first), std::move(rest)...};
 }

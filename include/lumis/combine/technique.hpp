@@ -48,8 +48,10 @@ template <class S, class First>
 concept SameMeasure = std::same_as<typename S::Measure, typename First::Measure>;
 
 template <class S, class First>
-concept ComposableWith = SameScalar<std::remove_cvref_t<S>, std::remove_cvref_t<First>> &&
-                         SamePoint<std::remove_cvref_t<S>, std::remove_cvref_t<First>> &&
-                         SameMeasure<std::remove_cvref_t<S>, std::remove_cvref_t<First>>;
+concept ComposableWith = SameScalar<S, First> && SamePoint<S, First> && SameMeasure<S, First>;
+
+// Each may be a reference, see Held.
+template <class First, class... Rest>
+concept Composable = (ComposableWith<std::remove_cvref_t<Rest>, std::remove_cvref_t<First>> && ...);
 
 }  // namespace lumis

@@ -19,14 +19,14 @@ using UniformsOf = glm::vec<S::dimensions, typename S::Scalar>;
 // sample(u) draws a point and reports pdf(point); pdf(x) is total: 0 off the support, never negative, never NaN.
 // Both are pure, noexcept, and take numbers, never a generator, so that any sampler fits (Sobol, Halton, a host's own).
 template <class S>
-concept Strategy =
-    std::floating_point<typename S::Scalar> && std::integral<std::remove_cv_t<decltype(S::dimensions)>> &&
+concept Strategy = std::floating_point<typename S::Scalar> &&
+    std::integral<std::remove_cv_t<decltype(S::dimensions)>> &&
     requires(const S strategy, UniformsOf<S> u, typename S::Point x) {
-        typename S::Measure;
-        { strategy.sample(u).value } -> std::convertible_to<typename S::Point>;
-        { strategy.sample(u).pdf } -> std::convertible_to<typename S::Scalar>;
-        { strategy.pdf(x) } -> std::convertible_to<typename S::Scalar>;
-    };
+    typename S::Measure;
+    { strategy.sample(u).value } -> std::convertible_to<typename S::Point>;
+    { strategy.sample(u).pdf } -> std::convertible_to<typename S::Scalar>;
+    { strategy.pdf(x) } -> std::convertible_to<typename S::Scalar>;
+};
 
 // invert(sample(u).value) == u up to rounding.
 template <class S>
@@ -36,7 +36,9 @@ concept InvertibleStrategy = Strategy<S> && requires(const S strategy, typename 
 
 // Draws from a set of measure zero: pdf(x) is 0 everywhere, and sample(u).pdf is a probability.
 template <class S>
-concept DeltaStrategy = Strategy<S> && requires { requires S::is_delta; };
+concept DeltaStrategy = Strategy<S> && requires {
+    requires S::is_delta;
+};
 
 // Tells an integrand that its point came from a delta strategy and that it is asked for the coefficient.
 struct delta_t {

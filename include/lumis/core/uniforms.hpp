@@ -90,7 +90,8 @@ template <class Urbg>
 Uniforms(Urbg&) -> Uniforms<Urbg&, float>;
 template <class Urbg>
     requires(!std::is_lvalue_reference_v<Urbg>)
-Uniforms(Urbg&&) -> Uniforms<Urbg, float>;
+Uniforms(Urbg&&)
+->Uniforms<Urbg, float>;
 
 // A host's own "give me the next number" as a source; what it returns at or above 1 becomes the largest number below 1.
 template <std::floating_point T, class F>

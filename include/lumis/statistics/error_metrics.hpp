@@ -34,8 +34,8 @@ template <std::floating_point T>
     assert(estimate.size() == reference.size());
     double sum = 0;
     for (std::size_t i = 0; i < estimate.size(); ++i) {
-        const double error = (double{estimate[i]} - double{reference[i]}) /
-                             std::fmax(std::abs(double{reference[i]}), floor);
+        const double error =
+            (double{estimate[i]} - double{reference[i]}) / std::fmax(std::abs(double{reference[i]}), floor);
         sum += error * error;
     }
     return sum / static_cast<double>(estimate.size());

@@ -28,6 +28,10 @@ class RunningMoments {
     void merge(const RunningMoments& other) noexcept {
         rejected_ += other.rejected_;
         if (other.count_ == 0) return;
+        if (count_ == 0) {  // exactly as they are: the square below may overflow
+            count_ = other.count_, mean_ = other.mean_, squares_ = other.squares_;
+            return;
+        }
         const auto mine = static_cast<double>(count_), theirs = static_cast<double>(other.count_);
         const double between = other.mean_ - mean_;
         mean_ += between * (theirs / (mine + theirs));

@@ -40,7 +40,8 @@ class AreaLight<Shape, ByArea> {
     using Measure = measure::SolidAngle;
     static constexpr int dimensions = 2;
 
-    AreaLight(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept : view_{shape, reference_point} {}
+    AreaLight(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept
+        : view_{shape, reference_point} {}
 
     [[nodiscard]] LightSample<Point, Scalar> sample(glm::vec<2, Scalar> u) const noexcept {
         const auto [position, cos_times_distance] = view_.sample(u);

@@ -133,8 +133,8 @@ class EnvironmentMap {
     [[nodiscard]] Row row(std::size_t y) const noexcept {
         const bool from_top = 2 * y < height_;
         const std::size_t rows_to_pole = from_top ? y : height_ - 1 - y;
-        const double sine = std::sin(std::numbers::pi / 2 * static_cast<double>(rows_to_pole) /
-                                     static_cast<double>(height_));
+        const double sine =
+            std::sin(std::numbers::pi / 2 * static_cast<double>(rows_to_pole) / static_cast<double>(height_));
         const double probability = counts_of<T>(row_starts_, y) / double{total_counts<T>};
         const double texel_solid_angle = 2 * std::numbers::pi / static_cast<double>(width_) * row_extent(y);
         return {static_cast<T>(2 * sine * sine), static_cast<T>(row_extent(y)),
@@ -146,7 +146,8 @@ class EnvironmentMap {
         row_starts_.resize(height_);
         std::vector<double> row_weights(height_), weights(width_);
         for (std::size_t y = 0; y < height_; ++y) {
-            for (std::size_t x = 0; x < width_; ++x) weights[x] = mean_luminance(luminance, x, y, options.interpolation);
+            for (std::size_t x = 0; x < width_; ++x)
+                weights[x] = mean_luminance(luminance, x, y, options.interpolation);
             row_weights[y] = row_extent(y) * deal_counts<T>(weights, {texel_starts_.data() + y * width_, width_});
         }
         empty_ = !(deal_counts<T>(row_weights, row_starts_) > 0);
@@ -157,7 +158,9 @@ class EnvironmentMap {
     // by 3/4 and its two neighbours by 1/8 in either direction: it is 0 only where the function is.
     [[nodiscard]] double mean_luminance(std::span<const T> luminance, std::size_t x, std::size_t y,
                                         Interpolation interpolation) const noexcept {
-        const auto texel = [&](std::size_t column, std::size_t row) { return double{luminance[row * width_ + column]}; };
+        const auto texel = [&](std::size_t column, std::size_t row) {
+            return double{luminance[row * width_ + column]};
+        };
         if (interpolation == Interpolation::Nearest) return texel(x, y);
         const std::size_t left = x > 0 ? x - 1 : width_ - 1, right = x + 1 < width_ ? x + 1 : 0;
         const std::size_t above = y > 0 ? y - 1 : 0, below = std::min(y + 1, height_ - 1);

@@ -21,12 +21,10 @@ class FlatView {
     static constexpr bool is_triangle = std::same_as<Shape, Triangle<T>>;
 
   public:
-    FlatView(const Shape& shape, const glm::vec<3, T>& reference_point) noexcept
-        requires is_triangle
+    FlatView(const Shape& shape, const glm::vec<3, T>& reference_point) noexcept requires is_triangle
         : FlatView{shape.a - reference_point, shape.b - shape.a, shape.c - shape.a} {}
 
-    FlatView(const Shape& shape, const glm::vec<3, T>& reference_point) noexcept
-        requires(!is_triangle)
+    FlatView(const Shape& shape, const glm::vec<3, T>& reference_point) noexcept requires(!is_triangle)
         : FlatView{shape.corner - reference_point, shape.edge_u, shape.edge_v} {}
 
     [[nodiscard]] T area() const noexcept { return area_; }

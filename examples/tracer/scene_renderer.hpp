@@ -1,0 +1,102 @@
+// A renderer for one type of scene: every loop and every estimator below is compiled for just this scene.
+#pragma once
+
+#include "camera.hpp"
+#include "direct_light.hpp"
+#include "renderer.hpp"
+#include "thread_clock.hpp"
+#include "type_name.hpp"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_reduce.h>
+#include <pcg_random.hpp>
+
+#include <functional>
+#include <type_traits>
+#include <utility>
+
+namespace tracer {
+
+template <Scene S>
+class SceneRenderer final : public Renderer {
+  public:
+    SceneRenderer(S scene, const SceneOptions& options, const Camera& camera) : scene_{std::move(scene)} {
+        for (int y = 0; y < options.height; ++y) {
+            for (int x = 0; x < options.width; ++x) {
+                seen_.push_back(look(camera.position, camera.direction(x, y, options.width, options.height)));
+            }
+        }
+    }
+
+    [[nodiscard]] std::vector<std::string> strategies(std::string_view integrator) const override {
+        return with_integrator(integrator, [&]<class Integrator>(std::type_identity<Integrator>) {
+            return names<Integrator>(std::type_identity<typename S::Material>{});
+        });
+    }
+
+    double add_pass(Film& film, std::string_view integrator, int samples, std::uint64_t seed,
+                    std::uint64_t pass) const override {
+        film.samples += samples;
+        return with_integrator(integrator, [&]<class Integrator>(std::type_identity<Integrator>) {
+            const auto add_pixels = [&](const oneapi::tbb::blocked_range<std::size_t>& pixels, double seconds) {
+                const ThreadClock clock;
+                for (std::size_t i = pixels.begin(); i < pixels.end(); ++i) {
+                    // A stream of its own for each pixel and pass.
+                    lumis::Uniforms uniforms{pcg32{seed * 0x9e3779b97f4a7c15u + pass, i}};
+                    for (int k = 0; k < samples; ++k) film.sums[i] += radiance<Integrator>(seen_[i], uniforms);
+                }
+                return seconds + clock.seconds();
+            };
+            return oneapi::tbb::parallel_reduce(oneapi::tbb::blocked_range<std::size_t>{0, seen_.size(), 64}, 0.0,
+                                                add_pixels, std::plus<>{});
+        });
+    }
+
+  private:
+    // What a pixel shows: a point to be lit, or light itself.
+    using Seen = std::variant<Vertex, glm::vec3>;
+
+    [[nodiscard]] Seen look(const glm::vec3& origin, const glm::vec3& direction) const {
+        const auto hit = scene_.geometry().closest(origin, direction);
+        if (!hit) return scene_.background(direction);
+        if (hit->surface->radiance != glm::vec3{0}) return hit->surface->radiance;
+        const bool front = glm::dot(hit->normal, direction) < 0;
+        const lumis::Frame<float> frame{front ? hit->normal : -hit->normal};
+        return Vertex{hit->position, frame, frame.to_local(-direction), hit->surface};
+    }
+
+    template <class Integrator>
+    [[nodiscard]] glm::dvec3 radiance(const Seen& seen, auto& uniforms) const {
+        if (const auto* light = std::get_if<glm::vec3>(&seen)) return *light;
+        const Vertex& vertex = std::get<Vertex>(seen);
+        if (!scene_.may_be_lit(vertex)) return glm::dvec3{0};
+        return std::visit(
+            [&](const auto& material) { return direct_light<Integrator>(scene_, vertex, material, uniforms); },
+            scene_.material(*vertex.surface));
+    }
+
+    // Calls visit with the integrator of that name.
+    template <class Visit>
+    static auto with_integrator(std::string_view name, Visit visit) {
+        return with_first_of<BsdfAlone, LightAlone, Balance, Power, OneOfBoth, Average>(name, visit);
+    }
+    template <class First, class... Rest, class Visit>
+    static auto with_first_of(std::string_view name, Visit visit) {
+        if constexpr (sizeof...(Rest) > 0) {
+            if (name != First::name) return with_first_of<Rest...>(name, visit);
+        }
+        return visit(std::type_identity<First>{});
+    }
+
+    template <class Integrator, class... Materials>
+    [[nodiscard]] std::vector<std::string> names(std::type_identity<std::variant<Materials...>>) const {
+        return {
+            type_name<Materials>() + ": " +
+            type_name<decltype(compose<Integrator>(scene_, std::declval<Vertex>(), std::declval<Materials>()))>()...};
+    }
+
+    S scene_;
+    std::vector<Seen> seen_;  // pixel by pixel
+};
+
+}  // namespace tracer

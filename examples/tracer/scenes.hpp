@@ -1,0 +1,14 @@
+// The scenes, one in a file of its own each.
+#pragma once
+
+#include "renderer.hpp"
+
+#include <memory>
+
+namespace tracer {
+
+[[nodiscard]] std::unique_ptr<Renderer> make_veach(const SceneOptions& options);
+[[nodiscard]] std::unique_ptr<Renderer> make_sky(const SceneOptions& options);
+[[nodiscard]] std::unique_ptr<Renderer> make_cornell(const SceneOptions& options);
+
+}  // namespace tracer

@@ -1,0 +1,19 @@
+// The name of a type as its author wrote it, to show what an estimator consists of.
+#pragma once
+
+#include <boost/core/demangle.hpp>
+
+#include <regex>
+#include <string>
+#include <typeinfo>
+
+namespace tracer {
+
+// Without namespaces and scalar arguments: Mixture<CosineHemisphere, GgxReflection>.
+template <class T>
+[[nodiscard]] std::string type_name() {
+    const std::string full = boost::core::demangle(typeid(T).name());
+    return std::regex_replace(full, std::regex{R"((lumis|tracer)::|<float>| const|&|(anonymous namespace)::)"}, "");
+}
+
+}  // namespace tracer
