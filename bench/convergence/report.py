@@ -39,7 +39,8 @@ INTEGRATOR = {"name": TEXT, "unbiased": (bool,), "points": [POINT], "slope": NUM
               "error_image?": NAME, "image_spp?": NUMBER, "image_seconds?": NUMBER, "fireflies?": NUMBER}
 PROBLEM = {"name": TEXT, "title": TEXT, "kind": TEXT, "description": TEXT, "strategies": (list,), "width?": COUNT,
            "height?": COUNT, "integrators": [INTEGRATOR],
-           "reference": {"source": TEXT, "value?": NUMBER, "rmse": NUMBER, "image?": NAME}}
+           "runs": COUNT,
+           "reference": {"source": TEXT, "value?": NUMBER, "rmse": NUMBER, "relative_mse": NUMBER, "image?": NAME}}
 RESULTS = {"machine": dict.fromkeys(("cpu", "threads", "compiler", "flags", "date"), (str, int)),
            "settings": {"seeds": [COUNT]}, "problems": [PROBLEM]}
 
@@ -152,19 +153,20 @@ def summarize(scenes):
 # Plot
 
 def plot(problem, path, size):
-    """RMSE against CPU seconds with 95 % bands; every line is named at its right end."""
+    """Relative error against CPU seconds with 95 % bands; every line is named at its right end."""
     figure, axes = plt.subplots(figsize=size)
     figure.subplots_adjust(left=0.68 / size[0], right=1 - 1.18 / size[0], bottom=0.55 / size[1], top=1 - 0.34 / size[1])
     axes.set(xscale="log", yscale="log", xlabel="CPU seconds")
-    axes.set_title("Root mean square error", loc="left")
+    axes.set_title("Relative error (root of the relative mean square error)", loc="left")
     ends, curves, constants = [], [], []
     for integrator in problem["integrators"]:
-        time, rmse, error = (np.array([point[key] for point in integrator["points"]], dtype=float)
-                             for key in ("cpu_seconds", "rmse", "rmse_standard_error"))
-        shown = (time > 0) & (rmse > 0)
+        time, mse, error = (np.array([point[key] for point in integrator["points"]], dtype=float)
+                            for key in ("cpu_seconds", "relative_mse", "relative_mse_standard_error"))
+        shown = (time > 0) & (mse > 0)
         if not shown.any():
             continue
-        time, rmse, error = time[shown], rmse[shown], Z95 * np.nan_to_num(error[shown])
+        time, rmse = time[shown], np.sqrt(mse[shown])
+        error = Z95 * np.nan_to_num(error[shown]) / (2 * rmse)
         color, unbiased = integrator["style"]["color"], integrator["unbiased"]
         axes.fill_between(time, np.maximum(rmse - error, 1e-3 * rmse), rmse + error, color=color, alpha=0.16, lw=0)
         axes.plot(time, rmse, color=color, marker=integrator["style"]["marker"], ls="-" if unbiased else (0, (4, 2)))
@@ -178,7 +180,7 @@ def plot(problem, path, size):
         axes.plot(span, guide, color="#777777", ls=":", lw=1.2)
         ends.append((span[1], guide[1], "#777777", "slope −1/2"))
         axes.set(xlim=span, ylim=(min(rmse.min(), guide[1]) / 1.6, 1.5 * np.max(rmse + error)))
-    reference_error = problem["reference"]["rmse"] or 0
+    reference_error = math.sqrt(max(problem["reference"]["relative_mse"] or 0, 0))
     if axes.get_ylim()[0] < reference_error < axes.get_ylim()[1]:
         axes.axhline(reference_error, color="#777777", lw=0.8, ls=(0, (6, 3)))
         axes.annotate("the reference’s own error", (0.02, reference_error), (0, -3), color="#555555",

@@ -1,13 +1,14 @@
 // Direct light at a point that the camera sees. A scene is a type: its materials are the alternatives of
-// Scene::Material, its lights the strategy that light_at returns; the estimator below is composed of just these.
+// Scene::Material, its lights what lights_at returns; the estimator below is composed of just these.
 #pragma once
 
 #include "geometry.hpp"
 #include "integrators.hpp"
+#include "materials.hpp"
 #include <lumis/lumis.hpp>
 
 #include <concepts>
-#include <optional>
+#include <tuple>
 #include <variant>
 
 namespace tracer {
@@ -25,8 +26,7 @@ concept Scene = requires(const S scene, const Vertex vertex, const glm::vec3 w) 
     typename S::Material;  // a std::variant
     { scene.material(*vertex.surface) } -> std::same_as<const typename S::Material&>;
     { scene.geometry() } -> std::same_as<const Geometry&>;
-    { scene.may_be_lit(vertex) } -> std::same_as<bool>;  // false: no light rises above its horizon
-    scene.light_at(vertex);                              // a strategy over directions
+    scene.lights_at(vertex);                             // a std::tuple of Light
     { scene.background(w) } -> std::same_as<glm::vec3>;  // radiance from beyond all surfaces
 };
 
@@ -37,25 +37,27 @@ template <Scene S>
     return hit ? hit->surface->radiance : scene.background(direction);
 }
 
-// The estimator that an integrator makes of a material and the scene's light. A mirror asks no light.
+// The estimator that an integrator makes of a material and the scene's lights.
 template <class Integrator, Scene S, class Material>
-[[nodiscard]] auto compose(const S& scene, const Vertex& vertex, const Material& material) {
+[[nodiscard]] auto estimator_at(const S& scene, const Vertex& vertex, const Material& material) {
     const auto bsdf = lumis::in_frame(vertex.frame, material.strategy(vertex.wo));
-    if constexpr (lumis::DeltaStrategy<std::remove_const_t<decltype(bsdf)>>) {
-        return multi_sample(lumis::BalanceHeuristic{}, lumis::take(1, bsdf));
-    } else {
-        return Integrator::compose(bsdf, scene.light_at(vertex));
-    }
+    return std::apply([&](const auto&... lights) { return Integrator::compose(bsdf, lights...); },
+                      scene.lights_at(vertex));
+}
+
+// A mirror asks no light: whatever the integrator, its one direction is all there is to sample.
+template <class Integrator, Scene S>
+[[nodiscard]] auto estimator_at(const S& /*scene*/, const Vertex& vertex, const Mirror& mirror) {
+    return multi_sample(lumis::BalanceHeuristic{},
+                        lumis::take(1, lumis::in_frame(vertex.frame, mirror.strategy(vertex.wo))));
 }
 
 template <class Integrator, Scene S, class Material>
 [[nodiscard]] glm::vec3 direct_light(const S& scene, const Vertex& vertex, const Material& material, auto& uniforms) {
-    const auto estimator = compose<Integrator>(scene, vertex, material);
-    if constexpr (requires { material.coefficient(); }) {
+    const auto estimator = estimator_at<Integrator>(scene, vertex, material);
+    if constexpr (std::same_as<Material, Mirror>) {
         return estimator.estimate(
-            [&](const glm::vec3& wi, lumis::delta_t) {
-                return material.coefficient() * incident(scene, vertex.position, wi);
-            },
+            [&](const glm::vec3& wi, lumis::delta_t) { return material.color * incident(scene, vertex.position, wi); },
             uniforms);
     } else {
         return estimator.estimate(

@@ -22,7 +22,7 @@ struct FileError : std::runtime_error {
 // Rec. 709.
 [[nodiscard]] float luminance(const glm::vec3& color) noexcept;
 
-// Radiance .hdr files, and whatever else stb reads (made linear).
+// By the ending: .exr files, else Radiance .hdr files and whatever else stb reads (made linear).
 [[nodiscard]] Image read_image(const std::string& path);
 
 // By the ending: .exr keeps the linear values, .png shows them in sRGB.

@@ -41,7 +41,6 @@ struct Mirror {
     vec3 color;
 
     [[nodiscard]] static auto strategy(const vec3& wo) { return lumis::PerfectReflection<float>{wo}; }
-    [[nodiscard]] vec3 coefficient() const { return color; }
 };
 
 // Reflectance of the boundary to a dielectric of relative index `index`, unpolarized light (Fresnel).

@@ -9,9 +9,18 @@ namespace tracer {
 namespace {
 
 constexpr std::array<SceneEntry, 3> all_scenes{{
-    {"veach", "Veach's plates and spheres", 768, 512, make_veach},
-    {"sky", "Rising roughness under a sunset", 768, 384, make_sky},
-    {"cornell", "Cornell box with a glossy block", 512, 512, make_cornell},
+    {"veach", "Veach's plates and spheres",
+     "Four coated plates, the farthest the smoothest, reflect five sphere lights of falling size and rising radiance. "
+     "Sampling the lights fails where a smooth plate mirrors a large light, sampling the BSDF where a rough one "
+     "reflects a small light.",
+     768, 512, make_veach},
+    {"sky", "Rising roughness under a sunset",
+     "A mirror, four metals of roughness 0.01, 0.05, 0.15 and 0.4, and chalk, under a photographed sky.", 768, 384,
+     make_sky},
+    {"cornell", "Cornell box",
+     "One rectangular light hangs over diffuse walls, a diffuse block and a coated one: sampling the light is nearly "
+     "all that this scene needs.",
+     512, 512, make_cornell},
 }};
 
 }  // namespace
@@ -29,6 +38,10 @@ std::span<const SceneEntry> scenes() {
 const SceneEntry* find_scene(std::string_view name) {
     const auto found = std::ranges::find(all_scenes, name, &SceneEntry::name);
     return found == all_scenes.end() ? nullptr : &*found;
+}
+
+int widest_scene() {
+    return std::ranges::max(all_scenes, {}, &SceneEntry::width).width;
 }
 
 }  // namespace tracer

@@ -51,7 +51,7 @@ struct SceneOptions {
 };
 
 struct SceneEntry {
-    std::string_view name, title;
+    std::string_view name, title, description;
     int width, height;  // unless asked otherwise
     std::unique_ptr<Renderer> (*make)(const SceneOptions&);
 };
@@ -60,5 +60,8 @@ struct SceneEntry {
 
 // nullptr if there is none of that name.
 [[nodiscard]] const SceneEntry* find_scene(std::string_view name);
+
+// In pixels, of all the scenes' own widths.
+[[nodiscard]] int widest_scene();
 
 }  // namespace tracer

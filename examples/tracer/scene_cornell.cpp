@@ -27,7 +27,7 @@ class Cornell {
         geometry_.add(lumis::Parallelogram{corner + x, y, z}, {green});  // right
         add_box({-0.36f, -1, -0.32f}, {0.6f, 1.2f, 0.6f}, 18, glossy);
         add_box({0.36f, -1, 0.34f}, {0.6f, 0.6f, 0.6f}, -17, white);
-        geometry_.add(light_, {white, glm::vec3{17, 12, 6}});
+        geometry_.add(light_, {white, glm::vec3{18, 14, 8}});
         geometry_.commit();
     }
 
@@ -35,15 +35,13 @@ class Cornell {
     [[nodiscard]] const Material& material(const Surface& surface) const { return materials_[surface.material]; }
     [[nodiscard]] static glm::vec3 background(const glm::vec3& /*w*/) { return glm::vec3{0}; }
 
-    // The light's highest corner above the point's horizon decides.
-    [[nodiscard]] bool may_be_lit(const Vertex& vertex) const {
+    [[nodiscard]] auto lights_at(const Vertex& vertex) const {
         const auto height = [&](const glm::vec3& v) { return glm::dot(v, vertex.frame.normal()); };
-        return height(light_.corner - vertex.position) + std::max(height(light_.edge_u), 0.0f) +
-                   std::max(height(light_.edge_v), 0.0f) >
-               0;
+        const float highest_corner = height(light_.corner - vertex.position) + std::max(height(light_.edge_u), 0.0f) +
+                                     std::max(height(light_.edge_v), 0.0f);
+        using Strategy = lumis::AreaLight<lumis::Parallelogram<float>>;
+        return std::tuple{Light<Strategy>{Strategy{light_, vertex.position}, highest_corner > 0}};
     }
-
-    [[nodiscard]] auto light_at(const Vertex& vertex) const { return lumis::AreaLight{light_, vertex.position}; }
 
   private:
     std::size_t add(const Material& material) {
@@ -62,7 +60,7 @@ class Cornell {
         }
     }
 
-    lumis::Parallelogram<float> light_{{-0.25f, 0.995f, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}};
+    lumis::Parallelogram<float> light_{{-0.25f, 0.9f, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}};
     Geometry geometry_;
     std::vector<Material> materials_;
 };

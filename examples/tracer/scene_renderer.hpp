@@ -69,7 +69,6 @@ class SceneRenderer final : public Renderer {
     [[nodiscard]] glm::dvec3 radiance(const Seen& seen, auto& uniforms) const {
         if (const auto* light = std::get_if<glm::vec3>(&seen)) return *light;
         const Vertex& vertex = std::get<Vertex>(seen);
-        if (!scene_.may_be_lit(vertex)) return glm::dvec3{0};
         return std::visit(
             [&](const auto& material) { return direct_light<Integrator>(scene_, vertex, material, uniforms); },
             scene_.material(*vertex.surface));
@@ -78,7 +77,7 @@ class SceneRenderer final : public Renderer {
     // Calls visit with the integrator of that name.
     template <class Visit>
     static auto with_integrator(std::string_view name, Visit visit) {
-        return with_first_of<BsdfAlone, LightAlone, Balance, Power, OneOfBoth, Average>(name, visit);
+        return with_first_of<BsdfAlone, LightAlone, Balance, Power, OneOfAll, Average>(name, visit);
     }
     template <class First, class... Rest, class Visit>
     static auto with_first_of(std::string_view name, Visit visit) {
@@ -89,11 +88,12 @@ class SceneRenderer final : public Renderer {
     }
 
     template <class Integrator, class... Materials>
-    [[nodiscard]] std::vector<std::string> names(std::type_identity<std::variant<Materials...>>) const {
-        return {
-            type_name<Materials>() + ": " +
-            type_name<decltype(compose<Integrator>(scene_, std::declval<Vertex>(), std::declval<Materials>()))>()...};
+    [[nodiscard]] static std::vector<std::string> names(std::type_identity<std::variant<Materials...>>) {
+        return {type_name<Materials>() + ": " + type_name<Estimator<Integrator, Materials>>()...};
     }
+    template <class Integrator, class Material>
+    using Estimator =
+        decltype(estimator_at<Integrator>(std::declval<S>(), std::declval<Vertex>(), std::declval<Material>()));
 
     S scene_;
     std::vector<Seen> seen_;  // pixel by pixel

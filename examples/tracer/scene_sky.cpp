@@ -31,8 +31,10 @@ class Sky {
     [[nodiscard]] const Geometry& geometry() const { return geometry_; }
     [[nodiscard]] const Material& material(const Surface& surface) const { return materials_[surface.material]; }
     [[nodiscard]] glm::vec3 background(const glm::vec3& w) const { return environment_.radiance(w); }
-    [[nodiscard]] bool may_be_lit(const Vertex& /*vertex*/) const { return !environment_.strategy().empty(); }
-    [[nodiscard]] const auto& light_at(const Vertex& /*vertex*/) const { return environment_.strategy(); }
+    [[nodiscard]] auto lights_at(const Vertex& /*vertex*/) const {
+        const auto& strategy = environment_.strategy();
+        return std::tuple{Light<decltype(strategy)>{strategy, !strategy.empty()}};
+    }
 
   private:
     Environment environment_;

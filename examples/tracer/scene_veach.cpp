@@ -56,27 +56,16 @@ class Veach {
     [[nodiscard]] const Material& material(const Surface& surface) const { return materials_[surface.material]; }
     [[nodiscard]] static glm::vec3 background(const glm::vec3& /*w*/) { return glm::vec3{0}; }
 
-    [[nodiscard]] static bool may_be_lit(const Vertex& vertex) {
-        return std::ranges::any_of(lights, [&](const SphereLight& light) { return rises(light.shape, vertex); });
-    }
-
-    // The lights that rise above the horizon, with equal chances.
-    [[nodiscard]] static auto light_at(const Vertex& vertex) {
-        float risen = 0;
-        for (const SphereLight& light : lights) risen += rises(light.shape, vertex) ? 1.0f : 0.0f;
-        const auto choice = [&](const SphereLight& light) {
-            return lumis::choose(
-                rises(light.shape, vertex) ? 1 / risen : 0.0f,
-                lumis::AreaLight<lumis::Sphere<float>, lumis::BySolidAngle>{light.shape, vertex.position});
+    [[nodiscard]] static auto lights_at(const Vertex& vertex) {
+        const auto seen = [&](const SphereLight& light) {
+            using Strategy = lumis::AreaLight<lumis::Sphere<float>, lumis::BySolidAngle>;
+            const float height = glm::dot(light.shape.center - vertex.position, vertex.frame.normal());
+            return Light<Strategy>{Strategy{light.shape, vertex.position}, height > -light.shape.radius};
         };
-        return std::apply([&](const auto&... light) { return lumis::Mixture{choice(light)...}; }, lights);
+        return std::apply([&](const auto&... light) { return std::tuple{seen(light)...}; }, lights);
     }
 
   private:
-    static bool rises(const lumis::Sphere<float>& sphere, const Vertex& vertex) {
-        return glm::dot(sphere.center - vertex.position, vertex.frame.normal()) > -sphere.radius;
-    }
-
     Geometry geometry_;
     std::vector<Material> materials_;
 };

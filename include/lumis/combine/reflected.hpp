@@ -28,7 +28,9 @@ class Reflected {
     [[nodiscard]] Sample<Point, Scalar> sample(UniformsOf<Normals> u) const noexcept {
         const auto normal = normals_.sample(u);
         if (!(normal.pdf > 0)) return {};
-        const Point wi = 2 * glm::dot(wo_, normal.value) * normal.value - wo_;
+        const Point& wm = normal.value;
+        // Divided by wm's own length: else its rounding would lengthen wi, by up to five units in the last place.
+        const Point wi = 2 * glm::dot(wo_, wm) / glm::dot(wm, wm) * wm - wo_;
         return {wi, pdf(wi)};
     }
 

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <concepts>
 #include <cstdint>
@@ -58,7 +59,8 @@ class Uniforms {
     static_assert(std::uniform_random_bit_generator<Engine>);
 
   public:
-    constexpr explicit Uniforms(Urbg engine) : engine_{std::forward<Urbg>(engine)} {}
+    // The argument is kept out of deduction: compilers disagree whether it or the guide below decides.
+    constexpr explicit Uniforms(std::type_identity_t<Urbg> engine) : engine_{std::forward<Urbg>(engine)} {}
 
     template <int N>
     [[nodiscard]] constexpr glm::vec<N, T> next() {
@@ -68,30 +70,28 @@ class Uniforms {
   private:
     static constexpr T spacing = T(1) / static_cast<T>(std::uint64_t{1} << uniform_bits<T>);
 
-    // uniform_bits<T> fair bits: the top ones of a draw if the generator yields a full word, else by the standard way.
+    // uniform_bits<T> fair bits: the top ones of one draw or of several if a draw holds whole bits, else by the
+    // standard way.
     constexpr std::uint64_t bits() {
         constexpr std::uint64_t range = Engine::max() - Engine::min();
         constexpr int width = std::bit_width(range);
         if constexpr (std::has_single_bit(range + 1) || range + 1 == 0) {
-            if constexpr (width >= uniform_bits<T>) {
-                return static_cast<std::uint64_t>(engine_() - Engine::min()) >> (width - uniform_bits<T>);
-            } else if constexpr (2 * width >= uniform_bits<T>) {
-                const auto high = static_cast<std::uint64_t>(engine_() - Engine::min()) << width;
-                return (high | static_cast<std::uint64_t>(engine_() - Engine::min())) >> (2 * width - uniform_bits<T>);
+            std::uint64_t result = 0;
+            for (int missing = uniform_bits<T>; missing > 0; missing -= width) {
+                const int taken = std::min(width, missing);
+                result = result << taken | static_cast<std::uint64_t>(engine_() - Engine::min()) >> (width - taken);
             }
+            return result;
+        } else {
+            return std::uniform_int_distribution<std::uint64_t>{0, (std::uint64_t{1} << uniform_bits<T>)-1}(engine_);
         }
-        return std::uniform_int_distribution<std::uint64_t>{0, (std::uint64_t{1} << uniform_bits<T>)-1}(engine_);
     }
 
     Urbg engine_;
 };
 
 template <class Urbg>
-Uniforms(Urbg&) -> Uniforms<Urbg&, float>;
-template <class Urbg>
-    requires(!std::is_lvalue_reference_v<Urbg>)
-Uniforms(Urbg&&)
-->Uniforms<Urbg, float>;
+Uniforms(Urbg&&) -> Uniforms<Urbg, float>;
 
 // A host's own "give me the next number" as a source; what it returns at or above 1 becomes the largest number below 1.
 template <std::floating_point T, class F>

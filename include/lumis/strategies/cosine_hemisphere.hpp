@@ -26,7 +26,7 @@ struct CosineHemisphere {
         return {w, pdf(w)};
     }
 
-    [[nodiscard]] T pdf(const Point& w) const noexcept { return w.z > 0 ? w.z * std::numbers::inv_pi_v<T> : T(0); }
+    [[nodiscard]] T pdf(const Point& w) const noexcept { return density_or_zero(w.z * std::numbers::inv_pi_v<T>); }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept {
         return {w.x * w.x + w.y * w.y, turn_of(w.x, w.y)};

@@ -31,7 +31,7 @@ class SphereView {
         const T cosine = std::sqrt(tangent_squared()) / distance_;
         versine_ = inside_ ? T(2) : sine * sine / (1 + cosine);
         chord_ = std::sqrt(2 * versine_) + 8 * std::numeric_limits<T>::epsilon();
-        if (!(radius_ > 0)) versine_ = radius_ = 0;
+        if (!(radius_ > 0 && radius_ <= std::numeric_limits<T>::max())) versine_ = radius_ = 0;
     }
 
     [[nodiscard]] T area() const noexcept { return 4 * std::numbers::pi_v<T> * radius_ * radius_; }

@@ -1,0 +1,29 @@
+// Reference images: computed once, kept in a folder, with their own error.
+#pragma once
+
+#include "image.hpp"
+#include "renderer.hpp"
+#include "study.hpp"
+
+#include <filesystem>
+#include <span>
+
+namespace convergence {
+
+// Red, green and blue of every pixel in a row.
+[[nodiscard]] std::span<const float> values(const tracer::Image& image);
+
+struct ReferenceImage {
+    tracer::Image image;
+    double floor;                                  // of relative errors: a tenth of the image's mean
+    double squared_error, relative_squared_error;  // of the image itself, mean over its values
+};
+
+// The mean of two images by two integrators, power and balance. They share no sample, so that half their difference
+// tells the error of their mean, and an error of either integrator would show in it. One that is kept under `name` is
+// used again unless the program has been built anew since.
+[[nodiscard]] ReferenceImage reference_image(const tracer::Renderer& renderer, int width, int height, int samples,
+                                             const std::filesystem::path& folder, const std::string& name,
+                                             const Progress& progress);
+
+}  // namespace convergence
