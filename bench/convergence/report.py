@@ -231,7 +231,7 @@ def quantity(value, error=None, power=0):
     """`value / 10^power` and its error, as text with the digits that the error leaves sensible."""
     value, error = value / 10.0 ** power, error and error / 10.0 ** power
     scale = math.floor(math.log10(abs(value))) if value else 0
-    digits = min(4, max(1, 1 + scale - math.floor(math.log10(error)))) if error else 2
+    digits = min(3, max(1, 1 + scale - math.floor(math.log10(error)))) if error else 2
     texts = (None if x is None else f"{x:,.{max(0, digits - scale)}f}" if x else "0" for x in (value, error))
     return [text and text.replace("-", "−") for text in texts]
 

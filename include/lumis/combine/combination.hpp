@@ -111,10 +111,10 @@ class Combination {
     // The weight of technique I at x, whose own effective density own() the caller may know already.
     template <std::size_t I, class Own>
     [[nodiscard]] Scalar weight_given(const Point& x, Own own) const noexcept {
-        if constexpr (PointHeuristic<Heuristic, Point>) {
-            return heuristic_.owns(I, x) ? Scalar(1) : Scalar(0);
-        } else if constexpr (number_of_smooth == 1 && !is_delta<I>) {
+        if constexpr (number_of_smooth == 1 && !is_delta<I>) {
             return own() > 0 ? Scalar(1) : Scalar(0);
+        } else if constexpr (PointHeuristic<Heuristic, Point>) {
+            return heuristic_.owns(I, x) ? Scalar(1) : Scalar(0);
         } else {
             std::array<Scalar, size> q{};
             detail::for_each_index<size>([&](auto k) {

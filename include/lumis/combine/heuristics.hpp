@@ -100,12 +100,9 @@ struct CutoffHeuristic {
 struct EqualWeights {
     template <std::floating_point T>
     [[nodiscard]] T operator()(std::size_t own, std::span<const T> densities) const noexcept {
-        int positive = 0;
-        for (const T density : densities) {
-            LUMIS_ASSERT(!std::isnan(density));
-            if (std::isnan(density)) return 0;
-            positive += density > 0;
-        }
+        const bool all_finite = std::ranges::all_of(densities, [](T p) { return std::isfinite(p); });
+        if (!all_finite) return detail::weight_without_ratios(own, densities);
+        const auto positive = std::ranges::count_if(densities, [](T p) { return p > 0; });
         return densities[own] > 0 ? T(1) / static_cast<T>(positive) : T(0);
     }
 };

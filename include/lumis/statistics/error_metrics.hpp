@@ -1,44 +1,48 @@
-// Errors of an estimate against a reference, value by value (the pixels of an image, say).
+// Errors of an estimate against a reference, value by value (the pixels of an image, say). Both are contiguous ranges of
+// floats or doubles, of one length. The mean of nothing is NaN; a value that is not finite makes the error so.
 #pragma once
 
-#include <cassert>
+#include "lumis/core/assert.hpp"
+
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <ranges>
 #include <span>
 
 namespace lumis {
 
-// Mean of (estimate - reference)^2. NaN for empty spans; not finite if any value is not.
-template <std::floating_point T>
-[[nodiscard]] double mean_squared_error(std::span<const T> estimate, std::span<const T> reference) noexcept {
-    assert(estimate.size() == reference.size());
+// Mean of (estimate - reference)^2.
+template <std::ranges::contiguous_range Values>
+[[nodiscard]] double mean_squared_error(const Values& estimate, const Values& reference) noexcept {
+    const std::span e{estimate}, r{reference};
+    LUMIS_ASSERT(e.size() == r.size());
     double sum = 0;
-    for (std::size_t i = 0; i < estimate.size(); ++i) {
-        const double error = double{estimate[i]} - double{reference[i]};
+    for (std::size_t i = 0; i < e.size(); ++i) {
+        const double error = double{e[i]} - double{r[i]};
         sum += error * error;
     }
-    return sum / static_cast<double>(estimate.size());
+    return sum / static_cast<double>(e.size());
 }
 
-template <std::floating_point T>
-[[nodiscard]] double root_mean_squared_error(std::span<const T> estimate, std::span<const T> reference) noexcept {
+template <std::ranges::contiguous_range Values>
+[[nodiscard]] double root_mean_squared_error(const Values& estimate, const Values& reference) noexcept {
     return std::sqrt(mean_squared_error(estimate, reference));
 }
 
 // Mean of ((estimate - reference) / max(|reference|, floor))^2: errors as fractions of the reference, so that a dark
-// region counts as much as a bright one; the floor, in the unit of the values, says from where on dark is black.
-template <std::floating_point T>
-[[nodiscard]] double relative_mean_squared_error(std::span<const T> estimate, std::span<const T> reference,
+// region counts as much as a bright one. The floor, in the unit of the values, says from where on dark is black; with a
+// floor of 0, a reference of 0 has no relative error.
+template <std::ranges::contiguous_range Values>
+[[nodiscard]] double relative_mean_squared_error(const Values& estimate, const Values& reference,
                                                  double floor) noexcept {
-    assert(estimate.size() == reference.size());
+    const std::span e{estimate}, r{reference};
+    LUMIS_ASSERT(e.size() == r.size());
     double sum = 0;
-    for (std::size_t i = 0; i < estimate.size(); ++i) {
-        const double error =
-            (double{estimate[i]} - double{reference[i]}) / std::fmax(std::abs(double{reference[i]}), floor);
+    for (std::size_t i = 0; i < e.size(); ++i) {
+        const double error = (double{e[i]} - double{r[i]}) / std::fmax(std::abs(double{r[i]}), floor);
         sum += error * error;
     }
-    return sum / static_cast<double>(estimate.size());
+    return sum / static_cast<double>(e.size());
 }
 
 }  // namespace lumis

@@ -1,0 +1,68 @@
+#include "reference_image.hpp"
+
+#include <lumis/statistics/error_metrics.hpp>
+
+#include <array>
+
+namespace convergence {
+
+namespace {
+
+using tracer::Image;
+
+Image render(const tracer::Renderer& renderer, int width, int height, int samples, const char* integrator,
+             const std::string& name, const Progress& progress) {
+    constexpr std::uint64_t seed = 0x5eed;  // apart from those of the runs
+    constexpr int passes = 8;
+    tracer::Film film{width, height};
+    for (int pass = 0; pass < passes; ++pass) {
+        progress(name + ", reference by " + integrator);
+        renderer.add_pass(film, integrator, (samples + passes - 1) / passes, seed, static_cast<std::uint64_t>(pass));
+    }
+    return film.image();
+}
+
+bool newer_than_program(const std::filesystem::path& file) {
+    namespace fs = std::filesystem;
+    return fs::exists(file) && fs::last_write_time(file) > fs::last_write_time("/proc/self/exe");
+}
+
+double mean(const Image& image) {
+    lumis::RunningMoments<float> moments;
+    for (const float value : values(image)) moments.add(value);
+    return moments.mean();
+}
+
+}  // namespace
+
+std::span<const float> values(const Image& image) {
+    return {&image.pixels.front().x, 3 * image.pixels.size()};
+}
+
+ReferenceImage reference_image(const tracer::Renderer& renderer, int width, int height, int samples,
+                               const std::filesystem::path& folder, const std::string& name, const Progress& progress) {
+    std::filesystem::create_directories(folder);
+    const std::array integrators{"power", "balance"};
+    std::array<Image, 2> images;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        const char* integrator = integrators[i];
+        const auto file = folder / (name + "_" + integrator + "_" + std::to_string(samples) + "spp_" +
+                                    std::to_string(width) + "x" + std::to_string(height) + ".exr");
+        if (!newer_than_program(file)) {
+            tracer::write_image(file.string(), render(renderer, width, height, samples, integrator, name, progress));
+        }
+        images[i] = tracer::read_image(file.string());
+    }
+    const auto& [power, balance] = images;
+    Image middle = power;
+    for (std::size_t i = 0; i < middle.pixels.size(); ++i) {
+        middle.pixels[i] = 0.5f * (power.pixels[i] + balance.pixels[i]);
+    }
+    // Half the difference of the two is the error of their middle.
+    const double floor = 0.1 * mean(middle);
+    const double squared_error = lumis::mean_squared_error(values(power), values(middle));
+    const double relative = lumis::relative_mean_squared_error(values(power), values(middle), floor);
+    return {std::move(middle), floor, squared_error, relative};
+}
+
+}  // namespace convergence

@@ -1,0 +1,64 @@
+// The law that a density integrates to the probability that something is drawn: 1, unless some uniforms draw nothing.
+#pragma once
+
+#include "lumis/core/strategy.hpp"
+#include "lumis/core/uniforms.hpp"
+#include "lumis/testing/cells.hpp"
+#include "lumis/testing/charts.hpp"
+#include "lumis/testing/result.hpp"
+
+#include <boost/math/distributions/normal.hpp>
+
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <random>
+
+namespace lumis::testing {
+
+// A narrow lobe magnifies the rounding of directions in float.
+template <std::floating_point T>
+inline constexpr double integration_tolerance = std::same_as<T, float> ? 1e-3 : 1e-6;
+
+struct IntegrationOptions {
+    // Of something being drawn, in closed form; without it the law counts how often it is.
+    std::optional<double> probability{};
+    std::optional<double> tolerance{};  // the scalar's integration_tolerance if not given
+    int samples = 100'000;              // for the count
+    std::uint64_t seed = 1;
+    Significance significance{};
+};
+
+// The chart should be dense where the density is. number: the difference between integral and probability; where the
+// probability is counted, what the law allows is the tolerance and the count's own confidence interval.
+template <Strategy S, class Point = glm::dvec3>
+[[nodiscard]] LawResult integrates(const S& strategy, const Chart<Point>& chart = sphere_chart(),
+                                   const IntegrationOptions& options = {}) {
+    using Scalar = typename S::Scalar;
+    const double tolerance = options.tolerance.value_or(integration_tolerance<Scalar>);
+    constexpr std::size_t lines = 8;
+    const double integral =
+        Cells<Point>{chart, lines, lines}.mass(density_of<Point>(strategy), {tolerance / (4 * lines)});
+
+    double probability = options.probability.value_or(0), allowed = tolerance;
+    if (!options.probability) {
+        Uniforms<std::mt19937_64, Scalar> uniforms{std::mt19937_64{options.seed}};
+        int drawn = 0;
+        for (int i = 0; i < options.samples; ++i) {
+            drawn += strategy.sample(uniforms.template next<S::dimensions>()).pdf > 0;
+        }
+        probability = drawn / static_cast<double>(options.samples);
+        const boost::math::normal_distribution<double> normal;
+        const double z = boost::math::quantile(complement(normal, options.significance.threshold() / 2));
+        const double variance = std::fmax(integral * (1 - integral), 0) / options.samples;
+        allowed += z * std::sqrt(variance);
+    }
+    const double error = std::abs(integral - probability);
+    return {error <= allowed, error,
+            detail::text("density integrates to ", integral, ", drawn with probability ", probability, ", allowed ",
+                         allowed)};
+}
+
+}  // namespace lumis::testing

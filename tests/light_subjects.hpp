@@ -1,0 +1,162 @@
+// Subjects of the laws: strategies over the directions of a light.
+#pragma once
+
+#include "subject.hpp"
+#include <lumis/lumis.hpp>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <vector>
+
+namespace subjects {
+
+// An elliptical chart about the centre of a flat light, whose half extents are given; and the light's blur.
+struct FlatView {
+    lumis::testing::DirectionChart chart;
+    double blur;  // in units of epsilon
+};
+
+inline FlatView view_of(const glm::dvec3& centre, const glm::dvec3& long_half, const glm::dvec3& short_half) {
+    const glm::dvec3 axis = glm::normalize(centre);
+    const auto across = [&](const glm::dvec3& v) { return (v - glm::dot(v, axis) * axis) / glm::length(centre); };
+    const glm::dvec3 tangent = glm::normalize(across(long_half)), bitangent = glm::cross(axis, tangent);
+    const glm::dvec2 widths{glm::length(across(long_half)), std::abs(glm::dot(across(short_half), bitangent))};
+    const auto chart =
+        lumis::testing::lobe_chart(lumis::Frame<double>{tangent, bitangent, axis}, glm::clamp(widths, 1e-6, 1.5));
+    return {chart, 20 * (1 / widths.x + 1 / widths.y)};
+}
+
+struct TriangleByArea {
+    template <class T>
+    static auto make() {
+        using V = glm::dvec3;
+        struct Case {
+            const char* label;
+            V a, b, c, reference;
+        };
+        const Case cases[] = {
+            {"above", {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 0}},
+            {"octant", {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}},
+            {"tilted and far", {10, 3, 20}, {12, 3, 19}, {10, 5, 21}, {1, 2, 3}},
+            {"sliver", {-1, 0, 2}, {1, 0, 2}, {1, 0.002, 2}, {0, 0, 0}},
+            {"tiny", {0.0001, 0, 1}, {0, 0.0001, 1}, {0, 0, 1}, {0.3, 0.2, -1}},
+            {"nearly edge-on", {1, 0, 0.01}, {2, 0.5, 0.01}, {1.5, 1, 0.02}, {0, 0, 0}},
+        };
+        std::vector<Subject<lumis::AreaLight<lumis::Triangle<T>>>> result;
+        for (const auto& [name, a, b, c, reference] : cases) {
+            const lumis::Triangle<T> triangle{glm::vec<3, T>(a), glm::vec<3, T>(b), glm::vec<3, T>(c)};
+            const auto [chart, blur] = view_of((a + b + c) / 3.0 - reference, (b - a) / 2.0, (c - a) / 2.0);
+            result.push_back(
+                {name, {triangle, glm::vec<3, T>(reference)}, chart, 1.0, blur * std::numeric_limits<T>::epsilon()});
+        }
+        return result;
+    }
+};
+
+struct ParallelogramByArea {
+    template <class T>
+    static auto make() {
+        using V = glm::dvec3;
+        struct Case {
+            const char* label;
+            V corner, edge_u, edge_v;
+        };
+        const Case cases[] = {
+            {"square above", {-1, -1, 1}, {2, 0, 0}, {0, 2, 0}},
+            {"skew", {1, -1, 2}, {2, 0.5, 1}, {-1, 1, 0.3}},
+            {"filling the view", {-1, -1, 0.05}, {2, 0, 0}, {0, 2, 0}},
+            {"strip", {-3, 0.5, 1}, {6, 0, 0}, {0, 0.01, 0}},
+        };
+        std::vector<Subject<lumis::AreaLight<lumis::Parallelogram<T>>>> result;
+        for (const auto& [name, corner, edge_u, edge_v] : cases) {
+            const lumis::Parallelogram<T> shape{glm::vec<3, T>(corner), glm::vec<3, T>(edge_u), glm::vec<3, T>(edge_v)};
+            const auto [chart, blur] = view_of(corner + (edge_u + edge_v) / 2.0, edge_u / 2.0, edge_v / 2.0);
+            result.push_back({name, {shape, {}}, chart, 1.0, blur * std::numeric_limits<T>::epsilon()});
+        }
+        return result;
+    }
+};
+
+inline const glm::dvec3 sphere_direction = glm::normalize(glm::dvec3{0.3, -0.5, 0.8});
+inline constexpr double half_angles[] = {0.01, 0.1, 1, 10, 45, 80, 89};  // in degrees
+
+template <class T, class Sampling, class Probability>
+auto spheres(Probability probability, bool unbounded_at_edge) {
+    using S = lumis::AreaLight<lumis::Sphere<T>, Sampling>;
+    std::vector<Subject<S>> result;
+    for (const double degrees : half_angles) {
+        const double half_angle = degrees * std::numbers::pi / 180, distance = 3;
+        const lumis::Sphere<T> sphere{glm::vec<3, T>(distance * sphere_direction),
+                                      static_cast<T>(distance * std::sin(half_angle))};
+        result.push_back({label("half-angle ", degrees),
+                          S{sphere, glm::vec<3, T>(T(0))},
+                          lumis::testing::lobe_chart(sphere_direction, 1.4 * std::sin(half_angle / 2)),
+                          probability(half_angle),
+                          20 * std::numeric_limits<T>::epsilon() / half_angle,
+                          {.unbounded_at_edge = unbounded_at_edge}});
+    }
+    const lumis::Sphere<T> around{glm::vec<3, T>(T(0.5) * glm::vec<3, T>(sphere_direction)), T(1)};
+    result.push_back({"from inside", S{around, glm::vec<3, T>(T(0))}, lumis::testing::lobe_chart(sphere_direction, 2)});
+    return result;
+}
+
+struct SphereByArea {
+    template <class T>
+    static auto make() {
+        return spheres<T, lumis::ByArea>([](double half_angle) { return (1 - std::sin(half_angle)) / 2; }, true);
+    }
+};
+
+struct SphereBySolidAngle {
+    template <class T>
+    static auto make() {
+        return spheres<T, lumis::BySolidAngle>([](double) { return 1.0; }, false);
+    }
+};
+
+struct EnvironmentMap {
+    template <class T>
+    static auto make() {
+        std::vector<Subject<lumis::EnvironmentMap<T>>> result;
+        const auto add = [&](const char* name, int width, int height, const std::vector<T>& texels) {
+            for (const auto interpolation : {lumis::Interpolation::Nearest, lumis::Interpolation::Bilinear}) {
+                const bool nearest = interpolation == lumis::Interpolation::Nearest;
+                result.push_back(
+                    {label(name, nearest ? ", nearest" : ", bilinear"),
+                     lumis::EnvironmentMap{width, height, texels, lumis::EnvironmentOptions{interpolation}},
+                     lumis::testing::latlong_chart(static_cast<std::size_t>(width), static_cast<std::size_t>(height)),
+                     1.0,
+                     0,
+                     {.rounding = 0, .tolerance = 0}});
+            }
+        };
+        std::mt19937 engine{5};
+        std::uniform_real_distribution<double> uniform{0, 1};
+        const auto random = [&](std::size_t size) {
+            std::vector<T> texels(size);
+            for (auto& texel : texels) texel = static_cast<T>(uniform(engine));
+            return texels;
+        };
+        add("1 x 1", 1, 1, {T(3)});
+        add("1 x 8", 1, 8, random(8));
+        add("8 x 1", 8, 1, random(8));
+        add("random", 16, 8, random(128));
+        auto texels = random(128);
+        texels[5 * 16 + 3] = T(1e6);
+        add("hot texel", 16, 8, texels);
+        texels = random(128);
+        for (std::size_t x = 0; x < 16; ++x) texels[x] = T(1e4);
+        add("hot pole row", 16, 8, texels);
+        for (std::size_t x = 0; x < 16; ++x) texels[x] = texels[3 * 16 + x] = texels[4 * 16 + x] = T(0);
+        add("black rows", 16, 8, texels);
+        return result;
+    }
+};
+
+}  // namespace subjects

@@ -1,0 +1,140 @@
+// Subjects of the laws: strategies over the directions into which a surface scatters.
+#pragma once
+
+#include "subject.hpp"
+#include <lumis/lumis.hpp>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace subjects {
+
+inline glm::dvec3 direction(double cos_theta, double phi) {
+    const double sin_theta = std::sqrt((1 - cos_theta) * (1 + cos_theta));
+    return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta};
+}
+
+inline lumis::testing::DirectionChart normals_chart(glm::dvec2 alpha) {
+    const lumis::Frame<double> local{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    return lumis::testing::lobe_chart(local, glm::max(alpha, glm::dvec2{lumis::ggx_min_alpha}));
+}
+
+inline const std::vector<glm::dvec2> alphas{{1e-4, 1e-4}, {0.01, 0.01}, {0.1, 0.1}, {0.5, 0.5},  {1, 1},
+                                            {0.001, 0.5}, {0.4, 0.05},  {1, 0},     {0.05, 1e-4}};
+inline const std::vector<glm::dvec3> views{direction(1, 0), direction(0.7, 0.4), direction(0.1, 2.5),
+                                           direction(0.01, -2)};
+
+// make(wo, alpha) for every view and roughness.
+template <class T, class Make>
+auto over_roughness(Make make) {
+    std::vector<decltype(make(glm::dvec3{}, glm::dvec2{}))> result;
+    for (const auto& wo : views) {
+        for (const auto& alpha : alphas) {
+            result.push_back(make(wo, alpha));
+            result.back().label = label("wo ", wo, ", alpha ", alpha);
+        }
+    }
+    return result;
+}
+
+struct CosineHemisphere {
+    template <class T>
+    static std::vector<Subject<lumis::CosineHemisphere<T>>> make() {
+        return {{"", {}, lumis::testing::sphere_chart()}};
+    }
+};
+
+struct UniformHemisphere {
+    template <class T>
+    static std::vector<Subject<lumis::UniformHemisphere<T>>> make() {
+        return {{"", {}, lumis::testing::sphere_chart()}};
+    }
+};
+
+struct GgxVndf {
+    template <class T>
+    static auto make() {
+        return over_roughness<T>([](const glm::dvec3& wo, const glm::dvec2& alpha) {
+            return Subject<lumis::GgxVndf<T>>{"", {glm::vec<3, T>(wo), glm::vec<2, T>(alpha)}, normals_chart(alpha)};
+        });
+    }
+};
+
+struct GgxReflection {
+    template <class T>
+    static auto make() {
+        return over_roughness<T>([](const glm::dvec3& wo, const glm::dvec2& alpha) {
+            return Subject<lumis::GgxReflection<T>>{"",
+                                                    {glm::vec<3, T>(wo), glm::vec<2, T>(alpha)},
+                                                    lumis::testing::reflected_chart(wo, normals_chart(alpha)),
+                                                    std::nullopt};
+        });
+    }
+};
+
+// Reflection about normals that are not GGX's.
+struct ReflectedCosine {
+    template <class T>
+    static auto make() {
+        using Normals = lumis::CosineHemisphere<T>;
+        std::vector<Subject<lumis::Reflected<Normals>>> result;
+        for (const auto& wo : {direction(1, 0), direction(0.4, 1), direction(0.05, -1)}) {
+            const auto chart = lumis::testing::reflected_chart(wo, lumis::testing::sphere_chart());
+            result.push_back({label("wo ", wo), {glm::vec<3, T>(wo), Normals{}}, chart, std::nullopt});
+        }
+        return result;
+    }
+};
+
+struct GgxReflectionInFrame {
+    template <class T>
+    static auto make() {
+        const glm::dvec3 normal = glm::normalize(glm::dvec3{1, -2, 0.5});
+        const lumis::Frame<double> frame{normal};
+        const lumis::Frame<T> own_frame{glm::vec<3, T>(normal)};
+        using S = decltype(lumis::in_frame(own_frame, std::declval<lumis::GgxReflection<T>>()));
+        std::vector<Subject<S>> result;
+        for (const auto& wo : views) {
+            for (const auto& alpha : alphas) {
+                // The lobe is alpha wo.z radians wide across its plane: in world space a float has no digits for less.
+                if (std::min(alpha.x, alpha.y) * wo.z < 1e-5) continue;
+                const lumis::GgxReflection<T> local{glm::vec<3, T>(wo), glm::vec<2, T>(alpha)};
+                const auto chart = lumis::testing::reflected_chart(wo, normals_chart(alpha));
+                result.push_back({label("wo ", wo, ", alpha ", alpha),
+                                  lumis::in_frame(own_frame, lumis::GgxReflection<T>{local}),
+                                  lumis::testing::framed_chart(frame, chart),
+                                  std::nullopt,
+                                  0,
+                                  {.rounding = 8, .length = 6}});
+            }
+        }
+        return result;
+    }
+};
+
+// A diffuse base under a GGX coat.
+struct CoatedDiffuse {
+    template <class T>
+    static auto make() {
+        const glm::dvec3 wo = direction(0.6, 1);
+        using S = decltype(lumis::Mixture{lumis::choose(0.25, lumis::CosineHemisphere<T>{}),
+                                          lumis::choose(0.75, std::declval<lumis::GgxReflection<T>>())});
+        std::vector<Subject<S>> result;
+        for (const double alpha : {0.02, 0.2}) {
+            const lumis::GgxReflection<T> coat{glm::vec<3, T>(wo), glm::vec<2, T>(T(alpha))};
+            result.push_back({label("alpha ", alpha),
+                              lumis::Mixture{lumis::choose(0.25, lumis::CosineHemisphere<T>{}),
+                                             lumis::choose(0.75, lumis::GgxReflection<T>{coat})},
+                              lumis::testing::reflected_chart(wo, normals_chart(glm::dvec2{2 * alpha})), std::nullopt});
+        }
+        return result;
+    }
+};
+
+}  // namespace subjects
