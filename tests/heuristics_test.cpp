@@ -53,7 +53,7 @@ std::vector<T> random_densities(std::size_t size, double decades, std::mt19937& 
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("weights lie in [0, 1] and sum to 1 over all decades of densities", "[heuristics]", float, double) {
+TEMPLATE_TEST_CASE("weights are shares that sum to 1 over all decades of densities", "[heuristics]", float, double) {
     using T = TestType;
     const double widest = std::is_same_v<T, float> ? 38 : 300;
     std::mt19937 engine{1};

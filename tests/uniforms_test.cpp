@@ -143,7 +143,7 @@ TEST_CASE("a host's numbers at or above 1 become the last number below", "[unifo
     CHECK(first(0.0f, std::numeric_limits<float>::quiet_NaN()) == below_one<float>);
 }
 
-TEMPLATE_TEST_CASE("lattice_index counts lattice points; 1 is the last", "[uniforms]", float, double) {
+TEMPLATE_TEST_CASE("lattice_index counts lattice points, and 1 is the last", "[uniforms]", float, double) {
     using T = TestType;
     constexpr std::uint64_t last = (std::uint64_t{1} << lumis::uniform_bits<T>)-1;
     STATIC_REQUIRE(lumis::lattice_index(T(0)) == 0);
