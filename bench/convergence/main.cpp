@@ -21,9 +21,9 @@ using namespace convergence;
 struct Settings {
     std::filesystem::path output = "report";
     int seeds = 8;
-    double seconds = 0.4;
+    double seconds = 0.6;
     int width = 288;
-    int reference_samples = 128;
+    int reference_samples = 192;
     int threads = oneapi::tbb::info::default_concurrency();
     std::string environment;
 };

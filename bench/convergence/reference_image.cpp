@@ -11,8 +11,7 @@ namespace {
 using tracer::Image;
 
 Image render(const tracer::Renderer& renderer, int width, int height, int samples, const char* integrator,
-             const std::string& name, const Progress& progress) {
-    constexpr std::uint64_t seed = 0x5eed;  // apart from those of the runs
+             std::uint64_t seed, const std::string& name, const Progress& progress) {
     constexpr int passes = 8;
     tracer::Film film{width, height};
     for (int pass = 0; pass < passes; ++pass) {
@@ -46,10 +45,12 @@ ReferenceImage reference_image(const tracer::Renderer& renderer, int width, int 
     std::array<Image, 2> images;
     for (std::size_t i = 0; i < images.size(); ++i) {
         const char* integrator = integrators[i];
+        const std::uint64_t seed = 0x5eed0000 + i;  // apart from each other and from those of the runs
         const auto file = folder / (name + "_" + integrator + "_" + std::to_string(samples) + "spp_" +
                                     std::to_string(width) + "x" + std::to_string(height) + ".exr");
         if (!newer_than_program(file)) {
-            tracer::write_image(file.string(), render(renderer, width, height, samples, integrator, name, progress));
+            tracer::write_image(file.string(),
+                                render(renderer, width, height, samples, integrator, seed, name, progress));
         }
         images[i] = tracer::read_image(file.string());
     }

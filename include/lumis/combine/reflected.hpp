@@ -42,6 +42,11 @@ class Reflected {
         return density_or_zero(normals_.pdf(half / length) / (2 * length));
     }
 
+    [[nodiscard]] UniformsOf<Normals> invert(const Point& wi) const noexcept requires InvertibleStrategy<Normals> {
+        const Point half = wo_ + wi;
+        return normals_.invert(half / glm::length(half));
+    }
+
     [[nodiscard]] const Normals& normals() const noexcept { return normals_; }
 
   private:

@@ -31,6 +31,12 @@ template <std::floating_point T>
     return std::sqrt(versine * (2 - versine));
 }
 
+// 1 - cos(theta) of a unit vector about +z, with all its digits near the pole.
+template <std::floating_point T>
+[[nodiscard]] T versine_of(const Direction<T>& w) noexcept {
+    return w.z > 0 ? (w.x * w.x + w.y * w.y) / (1 + w.z) : 1 - w.z;
+}
+
 // The unit vector at polar angle theta from +z, given 1 - cos(theta) in [0, 2], and at a fraction of a turn from +x.
 template <std::floating_point T>
 [[nodiscard]] Direction<T> direction_at(T versine, T turn) noexcept {

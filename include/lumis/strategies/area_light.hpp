@@ -1,9 +1,11 @@
 // A light of finite area as a distribution of directions from a reference point. World space, density per solid angle.
-// ByArea draws a surface point evenly and converts the density; BySolidAngle draws a direction evenly over what is seen.
+// ByArea draws a surface point evenly and converts the density; BySolidAngle draws a direction evenly over what is seen,
+// see area_light_by_solid_angle.hpp.
 #pragma once
 
 #include "lumis/core/measure.hpp"
 #include "lumis/core/strategy.hpp"
+#include "lumis/strategies/disk_view.hpp"
 #include "lumis/strategies/flat_view.hpp"
 #include "lumis/strategies/shapes.hpp"
 #include "lumis/strategies/sphere_view.hpp"
@@ -26,6 +28,8 @@ namespace detail {
 
 template <class Shape>
 struct ViewOf : std::type_identity<FlatView<Shape>> {};
+template <std::floating_point T>
+struct ViewOf<Disk<T>> : std::type_identity<DiskView<T>> {};
 template <std::floating_point T>
 struct ViewOf<Sphere<T>> : std::type_identity<SphereView<T>> {};
 
@@ -55,6 +59,13 @@ class AreaLight<Shape, ByArea> {
         return hit.distance > 0 ? pdf_from_hit(hit.distance, hit.cos_light) : Scalar(0);
     }
 
+    // Not for spheres, on which two points can lie in one direction.
+    [[nodiscard]] glm::vec<2, Scalar> invert(const Point& w) const noexcept requires
+        requires(typename detail::ViewOf<Shape>::type view) {
+        view.invert(w);
+    }
+    { return view_.invert(w); }
+
     // For hosts that already know where a ray hit this light: the distance, and the cosine between the ray and the
     // surface normal there, of either sign.
     [[nodiscard]] Scalar pdf_from_hit(Scalar distance, Scalar cos_light) const noexcept {
@@ -65,36 +76,6 @@ class AreaLight<Shape, ByArea> {
 
   private:
     typename detail::ViewOf<Shape>::type view_;
-};
-
-// The sphere's cone of directions evenly (Shirley, Wang and Zimmerman 1996); from inside, all directions evenly.
-template <std::floating_point T>
-class AreaLight<Sphere<T>, BySolidAngle> {
-  public:
-    using Scalar = T;
-    using Point = Direction<T>;
-    using Measure = measure::SolidAngle;
-    static constexpr int dimensions = 2;
-
-    AreaLight(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point) noexcept
-        : view_{sphere, reference_point}, pdf_{density_or_zero(1 / view_.solid_angle())} {}
-
-    // u.x = 0 is the centre of the cone.
-    [[nodiscard]] LightSample<Point, T> sample(glm::vec<2, T> u) const noexcept {
-        if (!(pdf_ > 0)) return {};
-        const auto [direction, distance] = view_.direction(u);
-        return {direction, pdf_, distance};
-    }
-
-    [[nodiscard]] T pdf(const Point& w) const noexcept { return view_.contains(w) ? pdf_ : T(0); }
-
-    [[nodiscard]] T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
-
-    [[nodiscard]] T solid_angle() const noexcept { return view_.solid_angle(); }
-
-  private:
-    SphereView<T> view_;
-    T pdf_;
 };
 
 template <class Shape, class T>

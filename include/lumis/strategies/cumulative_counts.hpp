@@ -10,7 +10,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
+#include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -36,17 +36,27 @@ void require_weights(std::span<const T> weights) {
     }
 }
 
+// value 2^exponent: sums of weights of any magnitude that neither overflow nor underflow.
+struct ScaledSum {
+    double value{};
+    int exponent{};
+
+    [[nodiscard]] double relative_to(int other_exponent) const noexcept {
+        return std::scalbn(value, exponent - other_exponent);
+    }
+};
+
 // Deals the counts out: starts[i] becomes the number of counts before entry i. Every entry with a weight above 0 gets
 // one count, and its share of the rest; entries of weight 0 get none. weights: finite, not negative, not more than there
 // are counts; all 0 deals nothing. Returns the sum of the weights.
 template <std::floating_point T>
-double deal_counts(std::span<const double> weights, std::span<std::uint32_t> starts) {
+ScaledSum deal_counts(std::span<const double> weights, std::span<std::uint32_t> starts) {
     const double largest = *std::max_element(weights.begin(), weights.end());
     if (!(largest > 0)) {
         std::fill(starts.begin(), starts.end(), 0u);
-        return 0;
+        return {};
     }
-    // A power of two brings the largest weight near 1, so that no sum overflows and no share is lost to underflow.
+    // In units of a power of two near the largest weight.
     const int exponent = std::ilogb(largest);
     const auto scaled = [&](double weight) { return std::scalbn(weight, -exponent); };
     double sum = 0;
@@ -64,7 +74,7 @@ double deal_counts(std::span<const double> weights, std::span<std::uint32_t> sta
         before += scaled(weights[i]);
         positive_before += weights[i] > 0;
     }
-    return std::scalbn(sum, exponent);
+    return {sum, exponent};
 }
 
 // The number of counts of entry i.
@@ -94,6 +104,37 @@ template <std::floating_point T>
     const T within = (static_cast<T>(lattice & mask) + T(0.5)) / static_cast<T>(mask + 1);
     const std::uint32_t counts = counts_of<T>(starts, index);
     return {index, counts, (static_cast<T>(count - starts[index]) + within) / static_cast<T>(counts)};
+}
+
+// The uniform that draws an entry at a position within its run: the inverse of draw_entry.
+template <std::floating_point T>
+[[nodiscard]] T uniform_of(std::span<const std::uint32_t> starts, std::size_t index, T position) noexcept {
+    return (static_cast<T>(starts[index]) + position * static_cast<T>(counts_of<T>(starts, index))) /
+           static_cast<T>(total_counts<T>);
+}
+
+// The one of n equal cells of [0, 1] that holds x.
+template <std::floating_point T>
+[[nodiscard]] std::size_t index_of(T x, std::size_t n) noexcept {
+    return std::min(static_cast<std::size_t>(x * static_cast<T>(n)), n - 1);
+}
+
+// A position within one of n equal cells of [0, 1], moved a few units in the last place of 1 away from the cell's edges:
+// rounded across one, a point would be given the density of one cell and belong to another.
+template <std::floating_point T>
+[[nodiscard]] T clear_of_edges(T position, std::size_t n) noexcept {
+    const T margin = std::min(8 * std::numeric_limits<T>::epsilon() * static_cast<T>(n), T(0.5));
+    return std::clamp(position, margin, 1 - margin);
+}
+
+// The number of entries of a table, if counts can be dealt to them; throws std::invalid_argument if not.
+template <std::floating_point T>
+[[nodiscard]] std::size_t checked_size(std::size_t size) {
+    if (size == 0 || size > total_counts<T>) {
+        throw std::invalid_argument("lumis: a table of " + std::to_string(size) + " weights; there must be from 1 to " +
+                                    std::to_string(total_counts<T>));
+    }
+    return size;
 }
 
 }  // namespace lumis

@@ -8,7 +8,7 @@
 
 #include "lumis/core/latlong.hpp"
 #include "lumis/core/strategy.hpp"
-#include "lumis/strategies/cumulative_counts.hpp"
+#include "lumis/strategies/count_grid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +33,11 @@ enum class Interpolation { Nearest, Bilinear };
 
 struct EnvironmentOptions {
     Interpolation interpolation = Interpolation::Nearest;
+
+    // Takes the mean luminance off every texel, so that the density goes where BSDF sampling does not do well enough
+    // (Karlik et al. 2019, "MIS Compensation", eq. 14). Texels below the mean are then left to the BSDF's technique:
+    // only for combinations that have one. A map without contrast stays as it is.
+    bool mis_compensation = false;
 };
 
 template <std::floating_point T = float>
@@ -48,41 +53,47 @@ class EnvironmentMap {
     // Keeps 4 bytes a texel.
     EnvironmentMap(std::integral auto width, std::integral auto height, std::span<const T> luminance,
                    EnvironmentOptions options = {})
-        : width_{size(width, "width")}, height_{size(height, "height")} {
-        if (luminance.size() != width_ * height_) {
-            throw std::invalid_argument("lumis: environment map of " + std::to_string(width_) + " x " +
-                                        std::to_string(height_) + " got " + std::to_string(luminance.size()) +
-                                        " values");
-        }
+        : grid_{width, height, luminance.size()} {
         require_weights(luminance);
-        build(luminance, options);
+        const auto weight = [&](std::size_t x, std::size_t y) {
+            return mean_luminance(luminance, x, y, options.interpolation);
+        };
+        const double excess = options.mis_compensation ? compensation(weight) : 0.0;
+        grid_.deal([&](std::size_t x, std::size_t y) { return std::max(weight(x, y) - excess, 0.0); },
+                   [&](std::size_t y) { return row_extent(y); });
+        for (std::size_t y = 0; y < grid_.height(); ++y) rows_.push_back(row(y));
     }
 
-    [[nodiscard]] std::size_t width() const noexcept { return width_; }
-    [[nodiscard]] std::size_t height() const noexcept { return height_; }
+    [[nodiscard]] std::size_t width() const noexcept { return grid_.width(); }
+    [[nodiscard]] std::size_t height() const noexcept { return grid_.height(); }
 
     // True if no texel has any luminance: then nothing is drawn, and the density is 0.
-    [[nodiscard]] bool empty() const noexcept { return empty_; }
+    [[nodiscard]] bool empty() const noexcept { return grid_.empty(); }
 
     // u.y draws the row, u.x the texel within it.
     [[nodiscard]] LightSample<Point, T> sample(glm::vec<2, T> u) const noexcept {
-        if (empty_) return {};
-        const auto drawn_row = draw_entry<T>(row_starts_, u.y);
-        const auto drawn_texel = draw_entry<T>(texel_starts(drawn_row.index), u.x);
-        const Row& row = rows_[drawn_row.index];
-        const T down = clear_of_edges(drawn_row.position, row_margin_);
-        const T versine = row.versine + row.extent * (row.from_top ? down : 1 - down);
-        const T across = clear_of_edges(drawn_texel.position, texel_margin_);
-        const T turn = (static_cast<T>(drawn_texel.index) + across) / static_cast<T>(width_);
-        return {direction_from_latlong(turn, versine, row.from_top), density(row, drawn_texel.counts),
+        if (empty()) return {};
+        const auto drawn = grid_.draw(u);
+        const Row& row = rows_[drawn.row];
+        const T versine = row.versine + row.extent * (row.from_top ? drawn.position.y : 1 - drawn.position.y);
+        const T turn = (static_cast<T>(drawn.column) + drawn.position.x) / static_cast<T>(width());
+        return {direction_from_latlong(turn, versine, row.from_top), density(drawn.column, drawn.row),
                 std::numeric_limits<T>::infinity()};
     }
 
     [[nodiscard]] T pdf(const Point& w) const noexcept {
         const auto uv = latlong_from_direction(w);
-        if (empty_ || !(uv.x >= 0 && uv.y >= 0)) return T(0);
-        const std::size_t row = cell(uv.y, height_), column = cell(uv.x, width_);
-        return density(rows_[row], counts_of<T>(texel_starts(row), column));
+        if (empty() || !(uv.x >= 0 && uv.y >= 0)) return T(0);
+        const auto texel = grid_.locate(uv);
+        return density(texel.column, texel.row);
+    }
+
+    [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept {
+        auto texel = grid_.locate(latlong_from_direction(w));
+        const Row& row = rows_[texel.row];
+        const T down = (versine_of(Point{w.x, w.z, row.from_top ? w.y : -w.y}) - row.versine) / row.extent;
+        texel.position.y = row.from_top ? down : 1 - down;
+        return grid_.invert(texel);
     }
 
   private:
@@ -95,63 +106,38 @@ class EnvironmentMap {
         bool from_top;       // the nearer pole is +y
     };
 
-    static std::size_t size(std::integral auto extent, const char* name) {
-        if (extent <= 0 || std::cmp_greater(extent, total_counts<T>)) {
-            throw std::invalid_argument(std::string("lumis: environment map ") + name + " is " +
-                                        std::to_string(extent) + "; it must be from 1 to " +
-                                        std::to_string(total_counts<T>));
-        }
-        return static_cast<std::size_t>(extent);
-    }
-
-    // The cell of [0, 1] divided into n that holds x.
-    static std::size_t cell(T x, std::size_t n) noexcept {
-        return std::min(static_cast<std::size_t>(x * static_cast<T>(n)), n - 1);
-    }
-
-    // Keeps a sample a few units in the last place inside its texel: rounded across the edge, it would meet the
-    // radiance of one texel with the density of another.
-    static T clear_of_edges(T position, T margin) noexcept { return std::clamp(position, margin, 1 - margin); }
-    static T margin(std::size_t n) noexcept {
-        return std::min(8 * std::numeric_limits<T>::epsilon() * static_cast<T>(n), T(0.5));
-    }
-
-    [[nodiscard]] std::span<const std::uint32_t> texel_starts(std::size_t row) const noexcept {
-        return {texel_starts_.data() + row * width_, width_};
-    }
-
-    static T density(const Row& row, std::uint32_t counts) noexcept {
-        return static_cast<T>(counts) * row.density_of_count;
+    [[nodiscard]] T density(std::size_t column, std::size_t row) const noexcept {
+        return static_cast<T>(grid_.cell_counts(column, row)) * rows_[row].density_of_count;
     }
 
     // cos(theta) at a row's upper edge less that at its lower one; the difference itself would cancel.
     [[nodiscard]] double row_extent(std::size_t y) const noexcept {
-        const double half_row = std::numbers::pi / 2 / static_cast<double>(height_);
+        const double half_row = std::numbers::pi / 2 / static_cast<double>(height());
         return 2 * std::sin(half_row * static_cast<double>(2 * y + 1)) * std::sin(half_row);
     }
 
     [[nodiscard]] Row row(std::size_t y) const noexcept {
-        const bool from_top = 2 * y < height_;
-        const std::size_t rows_to_pole = from_top ? y : height_ - 1 - y;
+        const bool from_top = 2 * y < height();
+        const std::size_t rows_to_pole = from_top ? y : height() - 1 - y;
         const double sine =
-            std::sin(std::numbers::pi / 2 * static_cast<double>(rows_to_pole) / static_cast<double>(height_));
-        const double probability = counts_of<T>(row_starts_, y) / double{total_counts<T>};
-        const double texel_solid_angle = 2 * std::numbers::pi / static_cast<double>(width_) * row_extent(y);
+            std::sin(std::numbers::pi / 2 * static_cast<double>(rows_to_pole) / static_cast<double>(height()));
+        const double probability = grid_.row_counts(y) / double{total_counts<T>};
+        const double texel_solid_angle = 2 * std::numbers::pi / static_cast<double>(width()) * row_extent(y);
         return {static_cast<T>(2 * sine * sine), static_cast<T>(row_extent(y)),
                 static_cast<T>(probability / (double{total_counts<T>} * texel_solid_angle)), from_top};
     }
 
-    void build(std::span<const T> luminance, EnvironmentOptions options) {
-        texel_starts_.resize(width_ * height_);
-        row_starts_.resize(height_);
-        std::vector<double> row_weights(height_), weights(width_);
-        for (std::size_t y = 0; y < height_; ++y) {
-            for (std::size_t x = 0; x < width_; ++x)
-                weights[x] = mean_luminance(luminance, x, y, options.interpolation);
-            row_weights[y] = row_extent(y) * deal_counts<T>(weights, {texel_starts_.data() + y * width_, width_});
+    // What MIS compensation takes off every texel: the mean over the sphere; nothing where no texel stands out of it.
+    [[nodiscard]] double compensation(auto weight) const {
+        double sum = 0, largest = 0;
+        for (std::size_t y = 0; y < height(); ++y) {
+            for (std::size_t x = 0; x < width(); ++x) {
+                sum += weight(x, y) * row_extent(y);
+                largest = std::max(largest, weight(x, y));
+            }
         }
-        empty_ = !(deal_counts<T>(row_weights, row_starts_) > 0);
-        for (std::size_t y = 0; y < height_; ++y) rows_.push_back(row(y));
+        const double mean = sum / (2 * static_cast<double>(width()));  // the rows' extents sum to 2
+        return largest > (1 + 1e-6) * mean ? mean : 0.0;
     }
 
     // Of the interpolated luminance over a texel. A bilinear function's mean over one cell weighs the cell's own value
@@ -159,26 +145,23 @@ class EnvironmentMap {
     [[nodiscard]] double mean_luminance(std::span<const T> luminance, std::size_t x, std::size_t y,
                                         Interpolation interpolation) const noexcept {
         const auto texel = [&](std::size_t column, std::size_t row) {
-            return double{luminance[row * width_ + column]};
+            return double{luminance[row * width() + column]};
         };
         if (interpolation == Interpolation::Nearest) return texel(x, y);
-        const std::size_t left = x > 0 ? x - 1 : width_ - 1, right = x + 1 < width_ ? x + 1 : 0;
-        const std::size_t above = y > 0 ? y - 1 : 0, below = std::min(y + 1, height_ - 1);
+        const std::size_t left = x > 0 ? x - 1 : width() - 1, right = x + 1 < width() ? x + 1 : 0;
+        const std::size_t above = y > 0 ? y - 1 : 0, below = std::min(y + 1, height() - 1);
         const auto across = [&](std::size_t row) {
             return 0.125 * texel(left, row) + 0.75 * texel(x, row) + 0.125 * texel(right, row);
         };
         return 0.125 * across(above) + 0.75 * across(y) + 0.125 * across(below);
     }
 
-    std::size_t width_, height_;
-    bool empty_{};
-    T texel_margin_{margin(width_)}, row_margin_{margin(height_)};
+    CountGrid<T> grid_;
     std::vector<Row> rows_;
-    std::vector<std::uint32_t> row_starts_;    // counts before each row
-    std::vector<std::uint32_t> texel_starts_;  // within each row, counts before each texel
 };
 
-template <std::integral W, std::integral H, std::ranges::contiguous_range R, class... Options>
-EnvironmentMap(W, H, const R&, Options...) -> EnvironmentMap<std::remove_cv_t<std::ranges::range_value_t<R>>>;
+template <std::integral W, std::integral H, std::ranges::contiguous_range R>
+EnvironmentMap(W, H, const R&, EnvironmentOptions = {})
+    -> EnvironmentMap<std::remove_cv_t<std::ranges::range_value_t<R>>>;
 
 }  // namespace lumis

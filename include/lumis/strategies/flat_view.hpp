@@ -40,6 +40,28 @@ class FlatView {
         return {scale_ * (corner_ + s * edge_u_ + t * edge_v_), height_};
     }
 
+    // The vertex all edges start from, relative to the reference point, and the edges; in units of the longest edge.
+    [[nodiscard]] const glm::vec<3, T>& corner() const noexcept { return corner_; }
+    [[nodiscard]] const glm::vec<3, T>& edge_u() const noexcept { return edge_u_; }
+    [[nodiscard]] const glm::vec<3, T>& edge_v() const noexcept { return edge_v_; }
+
+    // True if the reference point lies in the plane, or the shape has no area.
+    [[nodiscard]] bool edge_on() const noexcept { return !(std::abs(height_) > 0); }
+
+    // To the plane.
+    [[nodiscard]] T distance_along(const Direction<T>& w) const noexcept { return height_ / glm::dot(w, normal_); }
+
+    // The u that sample maps to the point that w meets.
+    [[nodiscard]] glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
+        const T determinant = glm::dot(w, normal_) * unit_area_;
+        const T s = glm::dot(w, across_u_) / determinant, t = glm::dot(w, across_v_) / determinant;
+        if constexpr (is_triangle) {
+            return {(s + t) * (s + t), t / (s + t)};
+        } else {
+            return {s, t};
+        }
+    }
+
     // w: unit. By triple products (Moller and Trumbore 1997). The edges give way by the rounding of w, so that a
     // direction drawn to a point on an edge meets it.
     [[nodiscard]] SurfaceHit<T> intersect(const Direction<T>& w) const noexcept {

@@ -21,6 +21,14 @@ struct Parallelogram {
     glm::vec<3, T> corner, edge_u, edge_v;
 };
 
+// normal: of any length.
+template <std::floating_point T = float>
+struct Disk {
+    using Scalar = T;
+    glm::vec<3, T> center, normal;
+    T radius;
+};
+
 template <std::floating_point T = float>
 struct Sphere {
     using Scalar = T;
@@ -32,6 +40,8 @@ template <std::floating_point T>
 Triangle(glm::vec<3, T>, glm::vec<3, T>, glm::vec<3, T>) -> Triangle<T>;
 template <std::floating_point T>
 Parallelogram(glm::vec<3, T>, glm::vec<3, T>, glm::vec<3, T>) -> Parallelogram<T>;
+template <std::floating_point T>
+Disk(glm::vec<3, T>, glm::vec<3, T>, T) -> Disk<T>;
 template <std::floating_point T>
 Sphere(glm::vec<3, T>, T) -> Sphere<T>;
 

@@ -58,6 +58,13 @@ class SphereView {
         return {axis_.to_world(local), distance_along(distance_ * local.z, distance_ * sine_of_versine(versine))};
     }
 
+    // The u of a direction towards the sphere.
+    [[nodiscard]] glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
+        const glm::vec<3, T> chord = w - axis_.normal();
+        const Direction<T> local = axis_.to_local(w);
+        return {glm::dot(chord, chord) / (2 * versine_), turn_of(local.x, local.y)};
+    }
+
     // Whether w points at the sphere. The chord between w and the axis keeps its digits where their cosine has none;
     // it gives way by the rounding of w, so that a direction drawn at the rim is found on the sphere.
     [[nodiscard]] bool contains(const Direction<T>& w) const noexcept {

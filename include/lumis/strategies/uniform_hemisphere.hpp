@@ -25,10 +25,7 @@ struct UniformHemisphere {
 
     [[nodiscard]] T pdf(const Point& w) const noexcept { return w.z > 0 ? std::numbers::inv_pi_v<T> / 2 : T(0); }
 
-    // The versine of a steep direction comes from its sine: 1 - z would have lost it.
-    [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept {
-        return {(w.x * w.x + w.y * w.y) / (1 + w.z), turn_of(w.x, w.y)};
-    }
+    [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept { return {versine_of(w), turn_of(w.x, w.y)}; }
 };
 
 }  // namespace lumis

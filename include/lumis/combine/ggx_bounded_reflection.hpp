@@ -1,0 +1,45 @@
+// Reflection of wo by a GGX surface, sampled through visible normals of a bounded cap: the same lobe as GgxReflection, but
+// most of the normals that would reflect below the horizon are not drawn. Local frame, density per solid angle of wi.
+// Eto and Tokuyoshi 2023, "Bounded VNDF Sampling for Smith-GGX Reflections".
+#pragma once
+
+#include "lumis/combine/reflected.hpp"
+#include "lumis/strategies/ggx_cap.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lumis {
+
+namespace detail {
+
+// By how much the cap can fall short of the visible hemisphere: 1 - k of Eto and Tokuyoshi's listing, where
+// k = (1 - a^2) s^2 / (s^2 + a^2 z^2), without the cancellation.
+template <std::floating_point T>
+[[nodiscard]] T bounded_cap_shortfall(const Direction<T>& wo, const glm::vec<2, T>& alpha) noexcept {
+    const T a = std::min({alpha.x, alpha.y, T(1)});
+    const T s = 1 + std::sqrt(wo.x * wo.x + wo.y * wo.y);
+    const T a2 = a * a, s2 = s * s, z2 = wo.z * wo.z;
+    return a2 * (s2 + z2) / (s2 + a2 * z2);
+}
+
+// A density of the normals that reflect above the horizon; of others it knows nothing.
+template <std::floating_point T>
+struct GgxBoundedNormals : GgxCap<T> {
+    GgxBoundedNormals(const Direction<T>& wo, const Ggx<T>& ggx) noexcept
+        : GgxCap<T>{wo, ggx, bounded_cap_shortfall(wo, ggx.alpha())} {}
+};
+
+}  // namespace detail
+
+template <std::floating_point T = float>
+struct GgxBoundedReflection : Reflected<detail::GgxBoundedNormals<T>> {
+    // wo: unit; on or below the horizon nothing is drawn. alpha: roughness along x and y, see ggx_min_alpha.
+    GgxBoundedReflection(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept
+        : Reflected<detail::GgxBoundedNormals<T>>{wo, detail::GgxBoundedNormals<T>{wo, Ggx<T>{alpha}}} {}
+
+    // The surface, for its reflectance: ggx().brdf(wo, wi).
+    [[nodiscard]] const Ggx<T>& ggx() const noexcept { return this->normals().ggx(); }
+};
+
+}  // namespace lumis

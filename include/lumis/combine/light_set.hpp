@@ -1,0 +1,115 @@
+// Many lights of one type as one strategy: one is selected with a probability in proportion to its weight, and sampled.
+//
+// A renderer's lights exist once, their strategies at each point to be lit. So `lights` is either a range of strategies or
+// a function that makes one as it is asked for, [&](std::size_t i) { return AreaLight{shapes[i], point}; }. The table of
+// weights is best made once as well, and passed as it is: nothing is then allocated where light is sampled.
+#pragma once
+
+#include "lumis/combine/held.hpp"
+#include "lumis/core/strategy.hpp"
+#include "lumis/strategies/alias_table.hpp"
+
+#include <concepts>
+#include <cstddef>
+#include <ranges>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace lumis {
+
+namespace detail {
+
+template <class Lights>
+[[nodiscard]] decltype(auto) light_of(const Lights& lights, std::size_t i) {
+    if constexpr (std::invocable<const Lights&, std::size_t>) {
+        return lights(i);
+    } else {
+        return lights[i];
+    }
+}
+
+}  // namespace detail
+
+// Lights and Table (an AliasTable) may be references, see Held.
+template <class Lights, class Table>
+class LightSet {
+    using Light = std::remove_cvref_t<decltype(detail::light_of(std::declval<const std::remove_cvref_t<Lights>&>(),
+                                                                std::size_t{}))>;
+    static_assert(Strategy<Light> && !DeltaStrategy<Light>, "lights of a set are strategies with a density");
+
+  public:
+    using Scalar = typename Light::Scalar;
+    using Point = typename Light::Point;
+    using Measure = typename Light::Measure;
+    static constexpr int dimensions = Light::dimensions + 1;
+    using LightSampleType = decltype(std::declval<const Light&>().sample(UniformsOf<Light>{}));
+
+    static_assert(std::same_as<typename std::remove_cvref_t<Table>::Scalar, Scalar>,
+                  "the weights of a light set have its scalar type");
+
+    // lights: as many as there are weights. weights: an AliasTable, or what one is made of; throws as that does, and if a
+    // range of lights is of another size.
+    template <class Weights>
+    LightSet(Lights lights, Weights&& weights)
+        : lights_{std::forward<Lights>(lights)}, table_{std::forward<Weights>(weights)} {
+        if constexpr (requires { std::ranges::size(lights_); }) {
+            if (std::ranges::size(lights_) != table_.size()) {
+                throw std::invalid_argument("lumis: " + std::to_string(std::ranges::size(lights_)) + " lights got " +
+                                            std::to_string(table_.size()) + " weights");
+            }
+        }
+    }
+
+    // True if no light has a weight above 0: then nothing is drawn.
+    [[nodiscard]] bool empty() const noexcept { return table_.empty(); }
+
+    // u.x selects the light. The density is that of the whole set, and asks every light for its own.
+    [[nodiscard]] LightSampleType sample(glm::vec<dimensions, Scalar> u) const noexcept {
+        LightSampleType drawn = sample_one(u).sample;
+        if (drawn.pdf > 0) drawn.pdf = pdf(drawn.value);
+        return drawn;
+    }
+
+    [[nodiscard]] Scalar pdf(const Point& x) const noexcept {
+        Scalar sum = 0;
+        for (std::size_t i = 0; i < table_.size(); ++i) {
+            if (table_.pdf(i) > 0) sum += pdf_of(i, x);
+        }
+        return sum;
+    }
+
+    // For hosts that treat what a light draws as its own, told apart from what another draws in the same direction: the
+    // index of the light selected, and its sample with the density that counts the selection. In constant time.
+    struct Selected {
+        std::size_t index{};
+        LightSampleType sample{};
+    };
+    [[nodiscard]] Selected sample_one(glm::vec<dimensions, Scalar> u) const noexcept {
+        const auto selected = table_.sample(glm::vec<1, Scalar>{u.x});
+        if (!(selected.pdf > 0)) return {};
+        UniformsOf<Light> rest;
+        for (int i = 0; i < Light::dimensions; ++i) rest[i] = u[i + 1];
+        auto sample = light(selected.value).sample(rest);
+        sample.pdf *= selected.pdf;
+        return {selected.value, sample};
+    }
+    [[nodiscard]] Scalar pdf_of(std::size_t index, const Point& x) const noexcept {
+        return table_.pdf(index) * light(index).pdf(x);
+    }
+
+  private:
+    [[nodiscard]] decltype(auto) light(std::size_t index) const { return detail::light_of(lights_, index); }
+
+    Lights lights_;
+    Table table_;
+};
+
+// Weights become a table; a table is used as it is.
+template <class Lights, std::ranges::contiguous_range Weights>
+LightSet(Lights&&, Weights&&) -> LightSet<Held<Lights>, AliasTable<std::ranges::range_value_t<Weights>>>;
+template <class Lights, class Table>
+LightSet(Lights&&, Table&&) -> LightSet<Held<Lights>, Held<Table>>;
+
+}  // namespace lumis

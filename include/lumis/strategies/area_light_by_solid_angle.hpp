@@ -1,0 +1,152 @@
+// Lights of finite area by the directions in which they are seen, evenly: the density is 1 / solid angle over the light.
+// World space. A light that subtends nothing (no area, edge-on, reference point at a vertex) draws nothing.
+#pragma once
+
+#include "lumis/strategies/area_light.hpp"
+#include "lumis/strategies/spherical_rectangle.hpp"
+#include "lumis/strategies/spherical_triangle.hpp"
+
+#include <concepts>
+#include <limits>
+#include <optional>
+
+namespace lumis {
+
+// The sphere's cone of directions evenly (Shirley, Wang and Zimmerman 1996); from inside, all directions evenly.
+template <std::floating_point T>
+class AreaLight<Sphere<T>, BySolidAngle> {
+  public:
+    using Scalar = T;
+    using Point = Direction<T>;
+    using Measure = measure::SolidAngle;
+    static constexpr int dimensions = 2;
+
+    AreaLight(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point) noexcept
+        : view_{sphere, reference_point}, pdf_{density_or_zero(1 / view_.solid_angle())} {}
+
+    // u.x = 0 is the centre of the cone.
+    [[nodiscard]] LightSample<Point, T> sample(glm::vec<2, T> u) const noexcept {
+        if (!(pdf_ > 0)) return {};
+        const auto [direction, distance] = view_.direction(u);
+        return {direction, pdf_, distance};
+    }
+
+    [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept { return view_.invert(w); }
+
+    [[nodiscard]] T pdf(const Point& w) const noexcept { return view_.contains(w) ? pdf_ : T(0); }
+
+    [[nodiscard]] T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
+
+    [[nodiscard]] T solid_angle() const noexcept { return view_.solid_angle(); }
+
+  private:
+    SphereView<T> view_;
+    T pdf_;
+};
+
+// Arvo 1995, in a form that keeps its digits for tiny triangles, see spherical_triangle.hpp.
+template <std::floating_point T>
+class AreaLight<Triangle<T>, BySolidAngle> {
+  public:
+    using Scalar = T;
+    using Point = Direction<T>;
+    using Measure = measure::SolidAngle;
+    static constexpr int dimensions = 2;
+
+    AreaLight(const Triangle<T>& triangle, const glm::vec<3, T>& reference_point) noexcept
+        : view_{triangle, reference_point},
+          seen_{view_.corner(), view_.corner() + view_.edge_u(), view_.corner() + view_.edge_v(), view_.edge_u(),
+                view_.edge_v()},
+          pdf_{view_.edge_on() ? T(0) : density_or_zero(1 / seen_.solid_angle())} {}
+
+    // u.x cuts off a share of the solid angle by an arc from a to the edge bc; u.y goes along that arc.
+    [[nodiscard]] LightSample<Point, T> sample(glm::vec<2, T> u) const noexcept {
+        if (!(pdf_ > 0)) return {};
+        const Point w = seen_.sample(u);
+        return {w, pdf_, view_.distance_along(w)};
+    }
+
+    [[nodiscard]] T pdf(const Point& w) const noexcept { return view_.intersect(w).distance > 0 ? pdf_ : T(0); }
+
+    [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept { return seen_.invert(w); }
+
+    [[nodiscard]] T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
+
+    [[nodiscard]] T solid_angle() const noexcept { return view_.edge_on() ? T(0) : seen_.solid_angle(); }
+
+  private:
+    FlatView<Triangle<T>> view_;
+    SphericalTriangle<T> seen_;
+    T pdf_;
+};
+
+// A rectangle by Urena, Fajardo and King 2013, which moves along both edges evenly. A parallelogram that is not a
+// rectangle, and a rectangle so small that their sums of angles have no digits left, is split by a diagonal into two
+// spherical triangles. Both are exactly even over the solid angle, so the density does not tell them apart.
+template <std::floating_point T>
+class AreaLight<Parallelogram<T>, BySolidAngle> {
+  public:
+    using Scalar = T;
+    using Point = Direction<T>;
+    using Measure = measure::SolidAngle;
+    static constexpr int dimensions = 2;
+
+    AreaLight(const Parallelogram<T>& shape, const glm::vec<3, T>& reference_point) noexcept
+        : view_{shape, reference_point},
+          first_{half(view_.edge_u(), view_.edge_u() + view_.edge_v())},
+          second_{half(view_.edge_u() + view_.edge_v(), view_.edge_v())},
+          solid_angle_{view_.edge_on() ? T(0) : first_.solid_angle() + second_.solid_angle()},
+          pdf_{density_or_zero(1 / solid_angle_)} {
+        constexpr T epsilon = std::numeric_limits<T>::epsilon();
+        const T square = glm::dot(view_.edge_u(), view_.edge_u()) * glm::dot(view_.edge_v(), view_.edge_v());
+        const bool is_rectangle = std::abs(glm::dot(view_.edge_u(), view_.edge_v())) <= 4 * epsilon * std::sqrt(square);
+        // What Urena's angles lose, epsilon over the solid angle, is then below 1e-5 of the edges.
+        if (is_rectangle && solid_angle_ > 1e5f * epsilon) {
+            rectangle_.emplace(view_.corner(), view_.edge_u(), view_.edge_v(), solid_angle_);
+        }
+    }
+
+    // u.x goes along the first edge and u.y along the second or, where the shape is split, u.x from the first edge by way
+    // of the diagonal to the second, and u.y away from the corner.
+    [[nodiscard]] LightSample<Point, T> sample(glm::vec<2, T> u) const noexcept {
+        if (!(pdf_ > 0)) return {};
+        Point w;
+        if (rectangle_) {
+            const glm::vec<3, T> position = rectangle_->sample(u);
+            w = position / glm::length(position);
+        } else {
+            const T share = first_.solid_angle() / solid_angle_;
+            w = u.x < share ? first_.sample({u.x / share, u.y})
+                            : second_.sample({std::min((u.x - share) / (1 - share), T(1)), u.y});
+        }
+        return {w, pdf_, view_.distance_along(w)};
+    }
+
+    [[nodiscard]] T pdf(const Point& w) const noexcept { return view_.intersect(w).distance > 0 ? pdf_ : T(0); }
+
+    [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept {
+        if (rectangle_) return rectangle_->invert(w);
+        const T share = first_.solid_angle() / solid_angle_;
+        const glm::vec<3, T> across = glm::cross(view_.corner(), view_.edge_u() + view_.edge_v());  // of the diagonal
+        const bool in_first = glm::dot(w, across) * glm::dot(view_.edge_u(), across) > 0;
+        const glm::vec<2, T> u = in_first ? first_.invert(w) : second_.invert(w);
+        return {in_first ? u.x * share : share + u.x * (1 - share), u.y};
+    }
+
+    [[nodiscard]] T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
+
+    [[nodiscard]] T solid_angle() const noexcept { return solid_angle_; }
+
+  private:
+    // The triangle of the corner and the ends of two vectors from it.
+    [[nodiscard]] SphericalTriangle<T> half(const glm::vec<3, T>& ab, const glm::vec<3, T>& ac) const noexcept {
+        return {view_.corner(), view_.corner() + ab, view_.corner() + ac, ab, ac};
+    }
+
+    FlatView<Parallelogram<T>> view_;
+    SphericalTriangle<T> first_, second_;
+    T solid_angle_, pdf_;
+    std::optional<SphericalRectangle<T>> rectangle_;
+};
+
+}  // namespace lumis

@@ -1,0 +1,34 @@
+// A light infinitely far away in one direction, as the sun nearly is. World space; a delta strategy. The integrand returns
+// the irradiance on a surface that faces the light, times what the surface does with it.
+#pragma once
+
+#include "lumis/core/strategy.hpp"
+
+#include <limits>
+
+namespace lumis {
+
+template <std::floating_point T = float>
+class DirectionalLight {
+  public:
+    using Scalar = T;
+    using Point = Direction<T>;
+    using Measure = measure::SolidAngle;
+    static constexpr int dimensions =
+        2;  // as an environment map's, so that a host's sampler keeps its dimensions aligned
+    static constexpr bool is_delta = true;
+
+    // direction: unit, towards the light.
+    constexpr explicit DirectionalLight(const Direction<T>& direction) noexcept : direction_{direction} {}
+
+    [[nodiscard]] constexpr LightSample<Point, T> sample(glm::vec<2, T>) const noexcept {
+        return {direction_, T(1), std::numeric_limits<T>::infinity()};
+    }
+
+    [[nodiscard]] constexpr T pdf(const Point&) const noexcept { return 0; }
+
+  private:
+    Direction<T> direction_;
+};
+
+}  // namespace lumis

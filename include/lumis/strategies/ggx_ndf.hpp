@@ -1,0 +1,54 @@
+// All GGX normals in proportion to their projected area: density D(wm) wm.z per solid angle of wm. Local frame.
+// The classical half-vector sampling, Walter et al. 2007, eq. 35; it draws normals that wo does not see.
+#pragma once
+
+#include "lumis/core/spherical.hpp"
+#include "lumis/core/strategy.hpp"
+#include "lumis/strategies/ggx.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <concepts>
+
+namespace lumis {
+
+template <std::floating_point T = float>
+class GgxNdf {
+  public:
+    using Scalar = T;
+    using Point = Direction<T>;
+    using Measure = measure::SolidAngle;
+    static constexpr int dimensions = 2;
+
+    // alpha: roughness along x and y, see ggx_min_alpha.
+    explicit GgxNdf(glm::vec<2, T> alpha) noexcept : ggx_{alpha} {}
+
+    // At roughness 1 the normals are cosine distributed; stretching them gives the rest. The textbook's
+    // tan(theta) = alpha sqrt(u / (1 - u)) divides by 0 at u = 1. u.y = phi / 2 pi before stretching.
+    [[nodiscard]] Sample<Point, T> sample(glm::vec<2, T> u) const noexcept {
+        const T radius = std::sqrt(u.x);
+        const auto circle = unit_circle(u.y);
+        const Direction<T> normal{ggx_.alpha().x * radius * circle.x, ggx_.alpha().y * radius * circle.y,
+                                  std::sqrt(1 - u.x)};
+        const T length = glm::length(normal);
+        if (!(length > 0)) return {};
+        const Point wm = normal / length;
+        return {wm, pdf(wm)};
+    }
+
+    [[nodiscard]] T pdf(const Point& wm) const noexcept { return ggx_.D(wm) * wm.z; }
+
+    [[nodiscard]] glm::vec<2, T> invert(const Point& wm) const noexcept {
+        const T x = wm.x / ggx_.alpha().x, y = wm.y / ggx_.alpha().y;
+        const T slope = x * x + y * y;
+        return {slope / (slope + wm.z * wm.z), turn_of(x, y)};
+    }
+
+    [[nodiscard]] const Ggx<T>& ggx() const noexcept { return ggx_; }
+
+  private:
+    Ggx<T> ggx_;
+};
+
+}  // namespace lumis

@@ -1,0 +1,119 @@
+// Points of [0,1] and [0,1]^2 with a density that is constant in each of equally large cells, in proportion to weights.
+// Lebesgue measure. In fixed point (see cumulative_counts.hpp): the density is the frequency really drawn.
+#pragma once
+
+#include "lumis/core/strategy.hpp"
+#include "lumis/strategies/count_grid.hpp"
+#include "lumis/strategies/cumulative_counts.hpp"
+
+#include <concepts>
+#include <cstddef>
+#include <ranges>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace lumis {
+
+template <std::floating_point T = float>
+class PiecewiseConstant1D {
+  public:
+    using Scalar = T;
+    using Point = T;
+    using Measure = measure::Lebesgue;
+    static constexpr int dimensions = 1;
+
+    // Throws std::invalid_argument for no weights, for one that is NaN, infinite or negative, and for more than there are
+    // counts (2^24 in float). All-zero weights are legal, see empty(). Keeps 4 bytes a weight.
+    explicit PiecewiseConstant1D(std::span<const T> weights) : starts_(checked_size<T>(weights.size())) {
+        require_weights(weights);
+        const std::vector<double> wide(weights.begin(), weights.end());
+        empty_ = !(deal_counts<T>(wide, starts_).value > 0);
+    }
+
+    [[nodiscard]] std::size_t size() const noexcept { return starts_.size(); }
+
+    // True if all weights are 0: then nothing is drawn, and the density is 0.
+    [[nodiscard]] bool empty() const noexcept { return empty_; }
+
+    // A cell of weight 0 is never drawn.
+    [[nodiscard]] Sample<Point, T> sample(glm::vec<1, T> u) const noexcept {
+        if (empty_) return {};
+        const auto drawn = draw_entry<T>(starts_, u.x);
+        const T x = (static_cast<T>(drawn.index) + clear_of_edges(drawn.position, size())) / static_cast<T>(size());
+        return {x, density(drawn.counts)};
+    }
+
+    [[nodiscard]] T pdf(Point x) const noexcept {
+        return !empty_ && x >= 0 && x <= 1 ? density(counts_of<T>(starts_, index_of(x, size()))) : T(0);
+    }
+
+    [[nodiscard]] glm::vec<1, T> invert(Point x) const noexcept {
+        const std::size_t index = index_of(x, size());
+        return glm::vec<1, T>{uniform_of<T>(starts_, index, x * static_cast<T>(size()) - static_cast<T>(index))};
+    }
+
+  private:
+    [[nodiscard]] T density(std::uint32_t counts) const noexcept {
+        return static_cast<T>(counts) / static_cast<T>(total_counts<T>) * static_cast<T>(size());
+    }
+
+    std::vector<std::uint32_t> starts_;  // counts before each cell
+    bool empty_{};
+};
+
+template <std::floating_point T = float>
+class PiecewiseConstant2D {
+  public:
+    using Scalar = T;
+    using Point = glm::vec<2, T>;
+    using Measure = measure::Lebesgue;
+    static constexpr int dimensions = 2;
+
+    // weights: width x height values, row by row. Throws as PiecewiseConstant1D does, and for a size that does not match.
+    PiecewiseConstant2D(std::integral auto width, std::integral auto height, std::span<const T> weights)
+        : grid_{width, height, weights.size()} {
+        require_weights(weights);
+        grid_.deal([&](std::size_t x, std::size_t y) { return double{weights[y * grid_.width() + x]}; },
+                   [](std::size_t) { return 1.0; });
+    }
+
+    [[nodiscard]] std::size_t width() const noexcept { return grid_.width(); }
+    [[nodiscard]] std::size_t height() const noexcept { return grid_.height(); }
+
+    // True if all weights are 0: then nothing is drawn, and the density is 0.
+    [[nodiscard]] bool empty() const noexcept { return grid_.empty(); }
+
+    // u.y draws the row, u.x the cell within it; x runs along a row.
+    [[nodiscard]] Sample<Point, T> sample(glm::vec<2, T> u) const noexcept {
+        if (empty()) return {};
+        const auto drawn = grid_.draw(u);
+        const Point x{(static_cast<T>(drawn.column) + drawn.position.x) / static_cast<T>(width()),
+                      (static_cast<T>(drawn.row) + drawn.position.y) / static_cast<T>(height())};
+        return {x, density(drawn.column, drawn.row)};
+    }
+
+    [[nodiscard]] T pdf(const Point& x) const noexcept {
+        if (empty() || !(x.x >= 0 && x.x <= 1 && x.y >= 0 && x.y <= 1)) return T(0);
+        const auto cell = grid_.locate(x);
+        return density(cell.column, cell.row);
+    }
+
+    [[nodiscard]] glm::vec<2, T> invert(const Point& x) const noexcept { return grid_.invert(grid_.locate(x)); }
+
+  private:
+    [[nodiscard]] T density(std::size_t column, std::size_t row) const noexcept {
+        constexpr T all = static_cast<T>(total_counts<T>);
+        return (static_cast<T>(grid_.row_counts(row)) / all * static_cast<T>(height())) *
+               (static_cast<T>(grid_.cell_counts(column, row)) / all * static_cast<T>(width()));
+    }
+
+    CountGrid<T> grid_;
+};
+
+template <std::ranges::contiguous_range R>
+PiecewiseConstant1D(const R&) -> PiecewiseConstant1D<std::remove_cv_t<std::ranges::range_value_t<R>>>;
+template <std::integral W, std::integral H, std::ranges::contiguous_range R>
+PiecewiseConstant2D(W, H, const R&) -> PiecewiseConstant2D<std::remove_cv_t<std::ranges::range_value_t<R>>>;
+
+}  // namespace lumis

@@ -1,0 +1,41 @@
+// A light at a point, seen from a reference point: the one direction to it. World space; a delta strategy. The integrand
+// returns intensity / distance^2, times what the surface does with it.
+#pragma once
+
+#include "lumis/core/strategy.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <limits>
+
+namespace lumis {
+
+template <std::floating_point T = float>
+class PointLight {
+  public:
+    using Scalar = T;
+    using Point = Direction<T>;
+    using Measure = measure::SolidAngle;
+    static constexpr int dimensions = 2;  // as an area light's, so that a host's sampler keeps its dimensions aligned
+    static constexpr bool is_delta = true;
+
+    PointLight(const glm::vec<3, T>& position, const glm::vec<3, T>& reference_point) noexcept
+        : distance_{glm::length(position - reference_point)}, direction_{(position - reference_point) / distance_} {}
+
+    // At distance 0 nothing is drawn.
+    [[nodiscard]] LightSample<Point, T> sample(glm::vec<2, T>) const noexcept {
+        if (!(distance_ > 0 && distance_ <= std::numeric_limits<T>::max())) return {};
+        return {direction_, T(1), distance_};
+    }
+
+    [[nodiscard]] T pdf(const Point&) const noexcept { return 0; }
+
+  private:
+    T distance_;
+    Direction<T> direction_;
+};
+
+template <std::floating_point T>
+PointLight(glm::vec<3, T>, glm::vec<3, T>) -> PointLight<T>;
+
+}  // namespace lumis

@@ -1,0 +1,32 @@
+// All directions with the constant density 1 / (4 pi) per solid angle.
+#pragma once
+
+#include "lumis/core/spherical.hpp"
+#include "lumis/core/strategy.hpp"
+
+#include <concepts>
+#include <numbers>
+
+namespace lumis {
+
+template <std::floating_point T = float>
+struct UniformSphere {
+    using Scalar = T;
+    using Point = Direction<T>;
+    using Measure = measure::SolidAngle;
+    static constexpr int dimensions = 2;
+
+    // u.x = (1 - cos(theta)) / 2, u.y = phi / 2 pi.
+    [[nodiscard]] Sample<Point, T> sample(glm::vec<2, T> u) const noexcept {
+        const Point w = direction_at(2 * u.x, u.y);
+        return {w, pdf(w)};
+    }
+
+    [[nodiscard]] T pdf(const Point& /*w*/) const noexcept { return std::numbers::inv_pi_v<T> / 4; }
+
+    [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept {
+        return {versine_of(w) / 2, turn_of(w.x, w.y)};
+    }
+};
+
+}  // namespace lumis
