@@ -3,6 +3,7 @@
 #include "render_study.hpp"
 #include "renderer.hpp"
 #include "results.hpp"
+#include "stiff_study.hpp"
 
 #include <CLI/CLI.hpp>
 #include <oneapi/tbb/global_control.h>
@@ -69,8 +70,11 @@ void run(const Settings& settings) {
     for (Study& study : integral_studies(first_seeds(8 * settings.seeds), settings.seconds / 30, std::ref(progress))) {
         finish(std::move(study));
     }
+    const StiffStudy stiff = stiff_study(2 * settings.seeds, settings.seconds / 200, std::ref(progress));
+    progress.clear();
+    print_table(stiff);
     write_csv(settings.output / "results.csv", studies);
-    write_json(settings.output / "results.json", studies, settings.threads);
+    write_json(settings.output / "results.json", studies, stiff, settings.threads);
 }
 
 }  // namespace

@@ -101,6 +101,27 @@ json study_json(const Study& study) {
     return result;
 }
 
+json stiff_json(const StiffStudy& study) {
+    json result{{"alphas", study.alphas},
+                {"solid_angles", study.solid_angles},
+                {"seconds", study.seconds},
+                {"runs", study.runs}};
+    for (std::size_t i = 0; i < study.integrators.size(); ++i) {
+        json errors, z;
+        for (const auto& row : study.cells[i]) {
+            json error_row, z_row;
+            for (const StiffCell& cell : row) {
+                error_row.push_back(number(cell.relative_error));
+                z_row.push_back(number(cell.bias_z));
+            }
+            errors.push_back(error_row);
+            z.push_back(z_row);
+        }
+        result["integrators"].push_back({{"name", study.integrators[i]}, {"relative_error", errors}, {"bias_z", z}});
+    }
+    return result;
+}
+
 }  // namespace
 
 void print_table(const Study& study) {
@@ -146,7 +167,8 @@ void write_csv(const std::filesystem::path& file, std::span<const Study> studies
     }
 }
 
-void write_json(const std::filesystem::path& file, std::span<const Study> studies, int threads) {
+void write_json(const std::filesystem::path& file, std::span<const Study> studies, const StiffStudy& stiff,
+                int threads) {
     json result{{"schema", 1},
                 {"machine",
                  {{"cpu", cpu_model()},
@@ -155,6 +177,7 @@ void write_json(const std::filesystem::path& file, std::span<const Study> studie
                   {"flags", LUMIS_CXX_FLAGS},
                   {"date", today()}}},
                 {"settings", {{"seeds", studies.front().seeds}}}};
+    result["stiff"] = stiff_json(stiff);
     for (const Study& study : studies) result["problems"].push_back(study_json(study));
     open(file) << result.dump(2) << '\n';
 }

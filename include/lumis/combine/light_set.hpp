@@ -49,14 +49,15 @@ class LightSet {
     static_assert(std::same_as<typename std::remove_cvref_t<Table>::Scalar, Scalar>,
                   "the weights of a light set have its scalar type");
 
-    // lights: as many as there are weights. weights: an AliasTable, or what one is made of; throws as that does, and if a
-    // range of lights is of another size.
+    // weights: an AliasTable, or what one is made of; throws as that does, and if a range of lights is of another size.
+    // No lights and no weights are an empty set.
     template <class Weights>
     LightSet(Lights lights, Weights&& weights)
-        : lights_{std::forward<Lights>(lights)}, table_{std::forward<Weights>(weights)} {
+        : lights_{std::forward<Lights>(lights)}, table_{table_of(std::forward<Weights>(weights))} {
         if constexpr (requires { std::ranges::size(lights_); }) {
-            if (std::ranges::size(lights_) != table_.size()) {
-                throw std::invalid_argument("lumis: " + std::to_string(std::ranges::size(lights_)) + " lights got " +
+            const std::size_t count = std::ranges::size(lights_);
+            if (count != table_.size() && !(count == 0 && table_.empty())) {
+                throw std::invalid_argument("lumis: " + std::to_string(count) + " lights got " +
                                             std::to_string(table_.size()) + " weights");
             }
         }
@@ -100,6 +101,17 @@ class LightSet {
     }
 
   private:
+    // A table has at least one weight: that of an empty set is 0.
+    template <class Weights>
+    static decltype(auto) table_of(Weights&& weights) {
+        if constexpr (std::same_as<std::remove_cvref_t<Weights>, std::remove_cvref_t<Table>>) {
+            return std::forward<Weights>(weights);
+        } else {
+            constexpr Scalar none[] = {Scalar(0)};
+            return std::ranges::empty(weights) ? Table{none} : Table{weights};
+        }
+    }
+
     [[nodiscard]] decltype(auto) light(std::size_t index) const { return detail::light_of(lights_, index); }
 
     Lights lights_;

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 namespace lumis {
@@ -18,6 +19,12 @@ template <class First, class... Rest>
     requires Composable<First, Rest...>
 class Mixture {
     using S0 = std::remove_cvref_t<First>;
+    template <class S>
+    static constexpr bool has_distance = requires(const S part, UniformsOf<S> u) {
+        part.sample(u).distance;
+    };
+    static constexpr bool all_have_distance = has_distance<S0> && (has_distance<std::remove_cvref_t<Rest>> && ...);
+
     static constexpr int part_dimensions =
         std::max({std::remove_cvref_t<First>::dimensions, std::remove_cvref_t<Rest>::dimensions...});
 
@@ -26,6 +33,9 @@ class Mixture {
     using Point = typename S0::Point;
     using Measure = typename S0::Measure;
     static constexpr int dimensions = part_dimensions + 1;
+
+    // A mixture of lights is a light.
+    using SampleType = std::conditional_t<all_have_distance, LightSample<Point, Scalar>, Sample<Point, Scalar>>;
 
     static_assert(dimensions <= 4, "a mixture of mixtures of mixtures needs more uniforms than a glm::vec holds");
     static_assert(!(DeltaStrategy<S0> || ... || DeltaStrategy<std::remove_cvref_t<Rest>>),
@@ -37,15 +47,18 @@ class Mixture {
           parts_{std::forward<First>(first.strategy), std::forward<Rest>(rest.strategy)...} {}
 
     // u.x selects the part, which gets the other numbers: stretching u.x for it would leave a rare part few bits.
-    [[nodiscard]] Sample<Point, Scalar> sample(glm::vec<dimensions, Scalar> u) const noexcept {
-        Sample<Point, Scalar> result{};
+    [[nodiscard]] SampleType sample(glm::vec<dimensions, Scalar> u) const noexcept {
+        SampleType result{};
         Scalar remaining = u.x;
         bool selected = false;
         for_each_part([&](auto probability, const auto& part) {
             if (!selected && remaining < probability) {
                 selected = true;
                 const auto drawn = part.sample(without_first<std::remove_cvref_t<decltype(part)>::dimensions>(u));
-                if (drawn.pdf > 0) result = {drawn.value, pdf(drawn.value)};
+                if (!(drawn.pdf > 0)) return;
+                if constexpr (all_have_distance) result.distance = drawn.distance;
+                result.value = drawn.value;
+                result.pdf = pdf(drawn.value);
             }
             remaining -= probability;
         });

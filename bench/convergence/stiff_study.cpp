@@ -1,0 +1,169 @@
+#include "stiff_study.hpp"
+
+#include "integrators.hpp"
+#include "thread_clock.hpp"
+#include <lumis/lumis.hpp>
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <pcg_random.hpp>
+
+#include <cstdio>
+#include <numbers>
+#include <type_traits>
+
+namespace convergence {
+
+namespace {
+
+using lumis::AreaLight;
+using lumis::BySolidAngle;
+
+constexpr double hemisphere = 2 * std::numbers::pi;
+
+// Towards the viewer, and the mirrored direction, where the light's centre is.
+template <class T>
+glm::vec<3, T> viewer() {
+    return {T(0.6), T(0), T(0.8)};
+}
+template <class T>
+glm::vec<3, T> mirrored() {
+    return {T(-0.6), T(0), T(0.8)};
+}
+
+// The integral of brdf cos over a cone about the mirrored direction that stays above the horizon, in double. The lobe is
+// anything from a ten-thousandth to ten times as wide as the cone: the versine is integrated on a logarithmic scale, the
+// azimuth by the trapezoid rule, which converges exponentially for a periodic integrand.
+double cone_answer(double alpha, double solid_angle) {
+    const lumis::Ggx<double> ggx{glm::dvec2{alpha}};
+    const lumis::Frame<double> frame{mirrored<double>()};
+    constexpr int turns = 256;
+    const auto ring = [&](double log_versine) {
+        const double versine = std::exp(log_versine);
+        double sum = 0;
+        for (int i = 0; i < turns; ++i) {
+            const glm::dvec3 wi = frame.to_world(lumis::direction_at(versine, i / double{turns}));
+            sum += ggx.brdf(viewer<double>(), wi) * wi.z;
+        }
+        return sum * versine * hemisphere / turns;
+    };
+    using boost::math::quadrature::gauss_kronrod;
+    return gauss_kronrod<double, 31>::integrate(ring, std::log(1e-16), std::log(solid_angle / hemisphere), 15, 1e-10);
+}
+
+// The same over the hemisphere: the mean of what the samples of visible normals are worth.
+double hemisphere_answer(double alpha) {
+    const lumis::GgxReflection<double> bsdf{viewer<double>(), glm::dvec2{alpha}};
+    const auto worth = [&](double u, double v) {
+        const auto drawn = bsdf.sample({u, v});
+        return drawn.pdf > 0 ? bsdf.ggx().brdf(viewer<double>(), drawn.value) * drawn.value.z / drawn.pdf : 0.0;
+    };
+    using boost::math::quadrature::gauss_kronrod;
+    return gauss_kronrod<double, 31>::integrate(
+        [&](double u) {
+            return gauss_kronrod<double, 31>::integrate([&](double v) { return worth(u, v); }, 0, 1, 5, 1e-9);
+        },
+        0, 1, 10, 1e-8);
+}
+
+// Runs one estimator for a time.
+template <class Estimator, class F>
+StiffCell measure(const Estimator& estimator, const F& f, double answer, int runs, double seconds) {
+    constexpr int batch = 256;
+    lumis::RunningMoments<> errors, squares;
+    for (int run = 0; run <= runs; ++run) {
+        lumis::Uniforms<pcg64> uniforms{pcg64{static_cast<std::uint64_t>(run)}};
+        lumis::RunningMoments<float> estimates;
+        const tracer::ThreadClock clock;
+        do {
+            for (int i = 0; i < batch; ++i) estimates.add(estimator.estimate(f, uniforms));
+        } while (clock.seconds() < seconds);
+        if (run == 0) continue;  // warms the machine up
+        const double error = estimates.mean() / answer - 1;
+        errors.add(error);
+        squares.add(error * error);
+    }
+    return {std::sqrt(squares.mean()), errors.mean() / errors.standard_error()};
+}
+
+// All integrators on one case.
+template <class Light, class... Integrators>
+std::vector<StiffCell> measure_all(float alpha, const Light& light, double answer, int runs, double seconds,
+                                   std::type_identity<std::tuple<Integrators...>>) {
+    const glm::vec3 wo = viewer<float>();
+    const lumis::GgxReflection<float> bsdf{wo, glm::vec2{alpha}};
+    const tracer::Light<Light> risen{light, true};
+    // The light shines with radiance 1, so what it does not cover reflects nothing.
+    const auto f = [&](const glm::vec3& wi) {
+        return wi.z > 0 && light.pdf(wi) > 0 ? bsdf.ggx().brdf(wo, wi) * wi.z : 0.0f;
+    };
+    return {measure(Integrators::compose(bsdf, risen), f, answer, runs, seconds)...};
+}
+
+using AllIntegrators = std::tuple<tracer::BsdfAlone, tracer::LightAlone, tracer::Balance, tracer::Power,
+                                  tracer::OneOfAll, tracer::Average>;
+
+template <class... Integrators>
+std::vector<std::string> names(std::type_identity<std::tuple<Integrators...>>) {
+    return {std::string{Integrators::name}...};
+}
+
+std::vector<StiffCell> measure_case(double alpha, double solid_angle, int runs, double seconds) {
+    constexpr std::type_identity<AllIntegrators> all;
+    const auto roughness = static_cast<float>(alpha);
+    if (solid_angle == hemisphere) {
+        return measure_all(roughness, lumis::UniformHemisphere<float>{}, hemisphere_answer(alpha), runs, seconds, all);
+    }
+    // A sphere at distance 1 whose radius is the sine of the cone's half-angle.
+    const double versine = solid_angle / hemisphere;
+    const auto radius = static_cast<float>(lumis::sine_of_versine(versine));
+    const AreaLight<lumis::Sphere<float>, BySolidAngle> light{{mirrored<float>(), radius}, glm::vec3{0}};
+    return measure_all(roughness, light, cone_answer(alpha, light.solid_angle()), runs, seconds, all);
+}
+
+}  // namespace
+
+double StiffStudy::worst_error(std::size_t integrator) const {
+    double worst = 0;
+    for (const auto& row : cells[integrator]) {
+        for (const StiffCell& cell : row) worst = std::max(worst, cell.relative_error);
+    }
+    return worst;
+}
+
+StiffStudy stiff_study(int runs, double seconds, const Progress& progress) {
+    StiffStudy study{{0.1, 0.01, 0.001, lumis::ggx_min_alpha},
+                     {1e-6, 1e-4, 1e-2, 1, hemisphere},
+                     seconds,
+                     runs,
+                     names(std::type_identity<AllIntegrators>{}),
+                     {}};
+    study.cells.assign(study.integrators.size(), std::vector<std::vector<StiffCell>>(study.alphas.size()));
+    for (std::size_t a = 0; a < study.alphas.size(); ++a) {
+        for (const double solid_angle : study.solid_angles) {
+            progress("near-mirror, roughness " + std::to_string(study.alphas[a]));
+            const auto cells = measure_case(study.alphas[a], solid_angle, runs, seconds);
+            for (std::size_t i = 0; i < cells.size(); ++i) study.cells[i][a].push_back(cells[i]);
+        }
+    }
+    return study;
+}
+
+void print_table(const StiffStudy& study) {
+    std::printf("\nNear-mirror GGX under lights of all sizes: relative error after %.3g s of CPU, %d runs\n",
+                study.seconds, study.runs);
+    std::printf("  %-8s %-10s", "alpha", "light, sr");
+    for (const std::string& name : study.integrators) std::printf(" %12s", name.c_str());
+    std::printf("\n");
+    for (std::size_t a = 0; a < study.alphas.size(); ++a) {
+        for (std::size_t s = 0; s < study.solid_angles.size(); ++s) {
+            std::printf("  %-8.3g %-10.3g", study.alphas[a], study.solid_angles[s]);
+            for (const auto& cells : study.cells) std::printf(" %10.2g %%", 100 * cells[a][s].relative_error);
+            std::printf("\n");
+        }
+    }
+    std::printf("  %-19s", "worst");
+    for (std::size_t i = 0; i < study.integrators.size(); ++i) std::printf(" %10.2g %%", 100 * study.worst_error(i));
+    std::printf("\n");
+}
+
+}  // namespace convergence
