@@ -90,4 +90,4 @@ struct TwoBumps {
     }
     static double integral() noexcept { return bump_integral(0.3, 0.25) + 3 * bump_integral(0.7, 0.05); }
 };
-inline constexpr Gaussian<double> too_narrow{0.7, 0.05};
+inline constexpr Gaussian<double> too_narrow{0.7, 0.1};

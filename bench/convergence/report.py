@@ -1,6 +1,6 @@
 """Turn the results of `convergence` into a page: python3 report.py <folder>/results.json
 
-Writes <folder>/error_<problem>.svg and <folder>/index.html; SCHEMA.md describes the input.
+Writes <folder>/error_<problem>.svg, <folder>/stiff.svg and <folder>/index.html; SCHEMA.md describes the input.
 """
 
 import argparse
@@ -18,6 +18,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.markers import MarkerStyle
 from matplotlib.ticker import FuncFormatter, LogFormatterSciNotation, LogLocator, NullFormatter
+
+from stiff import STIFF, plot_stiff, worst_errors
 
 SINGLE_STRATEGIES = ("bsdf", "light")
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#222222", "#cc79a7", "#e69f00", "#56b4e9")  # Okabe and Ito (2008)
@@ -42,7 +44,7 @@ PROBLEM = {"name": TEXT, "title": TEXT, "kind": TEXT, "description": TEXT, "stra
            "runs": COUNT,
            "reference": {"source": TEXT, "value?": NUMBER, "rmse": NUMBER, "relative_mse": NUMBER, "image?": NAME}}
 RESULTS = {"machine": dict.fromkeys(("cpu", "threads", "compiler", "flags", "date"), (str, int)),
-           "settings": {"seeds": [COUNT]}, "problems": [PROBLEM]}
+           "settings": {"seeds": [COUNT]}, "problems": [PROBLEM], "stiff": STIFF}
 
 
 # Load
@@ -254,7 +256,7 @@ def render(results, summary, results_name):
     environment.filters |= {function.__name__: function for function in (column_power, quantity, factor, marker_points)}
     pixels = {suffix: [round(96 * inches) for inches in size] for suffix, size in SIZES.items()}
     return environment.get_template("report.html.jinja").render(
-        **results, summary=summary, results_name=results_name, plot_size=pixels)
+        **results, summary=summary, stiff_worst=worst_errors(results["stiff"]), results_name=results_name, plot_size=pixels)
 
 
 def main():
@@ -270,6 +272,8 @@ def main():
     for problem in results["problems"]:
         for suffix, size in SIZES.items():
             plot(problem, path.parent / f"error_{problem['name']}{suffix}.svg", size)
+    for suffix, columns in {"": 3, "_narrow": 1}.items():
+        plot_stiff(results["stiff"], path.parent / f"stiff{suffix}.svg", columns)
     page = path.parent / "index.html"
     page.write_text(render(results, summary, path.name), encoding="utf-8")
     print(page)

@@ -6,6 +6,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import LogNorm
 
+STIFF = {"alphas": (list,), "solid_angles": (list,), "seconds": (int, float), "runs": (int,),
+         "integrators": [{"name": (str,), "relative_error": (list,), "bias_z": (list,)}]}
+
 
 def percent(error):
     """Two significant digits of a fraction as a percentage, without an exponent unless it is tiny."""
@@ -19,6 +22,12 @@ def percent(error):
 
 def size(solid_angle):
     return "2π" if math.isclose(solid_angle, 2 * math.pi) else f"{solid_angle:g}"
+
+
+def worst_errors(stiff):
+    """Each integrator's name and its largest error in percent, the best first."""
+    worst = {i["name"]: np.nanmax(np.array(i["relative_error"], dtype=float)) for i in stiff["integrators"]}
+    return [(name, percent(error)) for name, error in sorted(worst.items(), key=lambda item: item[1])]
 
 
 def plot_stiff(stiff, path, columns):
