@@ -3,6 +3,7 @@
 #include "strategies.hpp"
 #include <lumis/testing/laws.hpp>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -10,7 +11,9 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -142,6 +145,136 @@ TEST_CASE("the laws refuse a reflection without its Jacobian", "[laws]") {
     CHECK_FALSE(laws::integrates(no_jacobian, chart).passed);
     CHECK(laws::chi_square(reflection, chart).passed);
     CHECK_FALSE(laws::chi_square(no_jacobian, chart).passed);
+    CHECK(laws::jacobian(reflection).passed);
+    CHECK_FALSE(laws::jacobian(no_jacobian).passed);
+}
+
+// The visible normals' density without its masking term: D(wm) wo.wm / wo.z.
+TEST_CASE("the laws refuse visible normals without G1", "[laws]") {
+    const V wo = subjects::direction(0.2, 1);
+    const lumis::GgxVndf<double> normals{wo, glm::dvec2{0.6, 0.6}};
+    const auto no_masking =
+        consistently_broken(normals, [&](const V&, double pdf) { return pdf / normals.ggx().G1(wo); });
+    const auto chart = subjects::normals_chart({0.6, 0.6});
+    CHECK(laws::integrates(normals, chart).passed);
+    CHECK_FALSE(laws::integrates(no_masking, chart).passed);
+    CHECK_FALSE(laws::chi_square(no_masking, chart).passed);
+    CHECK(laws::jacobian(normals).passed);
+    CHECK_FALSE(laws::jacobian(no_masking).passed);
+}
+
+TEST_CASE("the Jacobian law refuses", "[laws]") {
+    const auto doubled = [](const V&, double pdf) { return 2 * pdf; };
+    CHECK(laws::jacobian(Cosine{}).passed);
+    CHECK(laws::jacobian(lumis::CosineHemisphere<float>{}).passed);
+    CHECK_FALSE(laws::jacobian(consistently_broken(Cosine{}, doubled)).passed);
+    CHECK_FALSE(laws::jacobian(consistently_broken(Cosine{}, [](const V&, double pdf) { return 1.001 * pdf; })).passed);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK_FALSE(laws::jacobian(consistently_broken(Cosine{}, [nan](const V&, double) { return nan; })).passed);
+    const auto poisoned = [nan](auto sample) {
+        sample.value.x = nan;
+        return sample;
+    };
+    CHECK_FALSE(laws::jacobian(Broken{Uniform{}, poisoned, same_pdf}).passed);
+    // A map of steps has no Jacobian.
+    const auto stepped = [](auto sample) {
+        sample.value = glm::normalize(glm::round(sample.value * 1000.0));
+        return sample;
+    };
+    CHECK_FALSE(laws::jacobian(Broken{Uniform{}, stepped, same_pdf}).passed);
+
+    // A table whose density forgot the size of its cells, in one dimension and in two.
+    const lumis::PiecewiseConstant1D line{std::vector{1.0, 3.0}};
+    CHECK(laws::jacobian(line).passed);
+    CHECK_FALSE(laws::jacobian(consistently_broken(line, [](double, double pdf) { return pdf / 2; })).passed);
+    const lumis::PiecewiseConstant2D square{2, 2, std::vector{1.0, 3.0, 0.5, 2.0}};
+    CHECK(laws::jacobian(square).passed);
+    CHECK_FALSE(laws::jacobian(consistently_broken(square, [](const auto&, double pdf) { return pdf / 4; })).passed);
+    STATIC_REQUIRE_FALSE(laws::MapsUniforms<lumis::AliasTable<double>>);
+}
+
+namespace {
+
+// An environment map whose samples lie half a texel beside what pdf looks up.
+struct Shifted {
+    using Scalar = double;
+    using Point = V;
+    using Measure = lumis::measure::SolidAngle;
+    static constexpr int dimensions = 2;
+
+    const lumis::EnvironmentMap<double>& map;
+    double turn;
+
+    static V turned(const V& w, double turn) noexcept {
+        const auto circle = lumis::unit_circle(turn);
+        return {circle.x * w.x - circle.y * w.z, w.y, circle.y * w.x + circle.x * w.z};
+    }
+    auto sample(glm::dvec2 u) const noexcept {
+        auto sample = map.sample(u);
+        sample.value = turned(sample.value, turn);
+        return sample;
+    }
+    double pdf(const V& w) const noexcept { return map.pdf(w); }
+    glm::dvec2 invert(const V& w) const noexcept { return map.invert(w); }
+};
+
+}  // namespace
+
+TEST_CASE("the laws refuse a shift by half a texel", "[laws]") {
+    std::vector<double> texels;
+    for (int i = 0; i < 16 * 8; ++i) texels.push_back(1 + i % 7);
+    const lumis::EnvironmentMap map{16, 8, texels};
+    const auto chart = laws::latlong_chart(16, 8);
+    CHECK(laws::agreement(Shifted{map, 0}).passed);
+    CHECK_FALSE(laws::agreement(Shifted{map, 0.5 / 16}).passed);
+    CHECK(laws::chi_square(Shifted{map, 0}, chart).passed);
+    CHECK_FALSE(laws::chi_square(Shifted{map, 0.5 / 16}, chart).passed);
+    CHECK(laws::round_trip(Shifted{map, 0}).passed);
+    CHECK_FALSE(laws::round_trip(Shifted{map, 0.5 / 16}).passed);
+}
+
+namespace {
+
+template <class S, class SpoilInverse>
+struct BrokenInverse : S {
+    SpoilInverse spoil;
+
+    glm::dvec2 invert(const V& w) const noexcept { return spoil(S::invert(w)); }
+};
+
+}  // namespace
+
+TEST_CASE("the round trip refuses", "[laws]") {
+    const auto passes = [](auto spoil) {
+        return laws::round_trip(BrokenInverse<Cosine, decltype(spoil)>{{}, spoil}).passed;
+    };
+    using U = glm::dvec2;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK(passes([](U u) { return u; }));
+    CHECK_FALSE(passes([](U u) { return U{u.y, u.x}; }));
+    CHECK_FALSE(passes([](U u) { return U{1 - u.x, u.y}; }));
+    CHECK_FALSE(passes([](U u) { return U{u.x, u.y + 1}; }));
+    CHECK_FALSE(passes([](U u) { return U{u.x, u.y < 0.5 ? u.y + 0.5 : u.y - 0.5}; }));
+    CHECK_FALSE(passes([](U u) { return U{u.x * (1 + 1e-10), u.y}; }));
+    CHECK_FALSE(passes([nan](U u) { return U{u.x, u.y > 0.99 ? nan : u.y}; }));
+}
+
+TEST_CASE("the delta law refuses", "[laws]") {
+    using Mirror = lumis::PerfectReflection<double>;
+    struct WithDensity : Mirror {
+        double pdf(const V& w) const noexcept { return w.z > 0 ? 1 : 0; }
+    };
+    struct WithoutLimit : Mirror {
+        auto sample(glm::dvec2 u) const noexcept {
+            auto sample = Mirror::sample(u);
+            sample.pdf = std::numeric_limits<double>::infinity();
+            return sample;
+        }
+    };
+    CHECK(laws::draws_deltas(Mirror{V{0.6, 0, 0.8}}).passed);
+    CHECK_FALSE(laws::draws_deltas(Mirror{V{0.6, 0, 0.9}}).passed);
+    CHECK_FALSE(laws::draws_deltas(WithDensity{Mirror{V{0.6, 0, 0.8}}}).passed);
+    CHECK_FALSE(laws::draws_deltas(WithoutLimit{Mirror{V{0.6, 0, 0.8}}}).passed);
 }
 
 TEST_CASE("stability refuses", "[laws]") {
@@ -152,6 +285,50 @@ TEST_CASE("stability refuses", "[laws]") {
                     return w.z == 0 ? nan : pdf;
                 })).passed);
     CHECK_FALSE(laws::draws_nothing(Cosine{}).passed);
+}
+
+namespace {
+
+// The textbook's cone: 1 - cos(theta) as a difference, which in float has no digits left for a small light.
+template <class T>
+struct TextbookCone {
+    using Scalar = T;
+    using Point = lumis::Direction<T>;
+    using Measure = lumis::measure::SolidAngle;
+    static constexpr int dimensions = 2;
+
+    T half_angle;
+
+    lumis::Sample<Point, T> sample(glm::vec<2, T> u) const noexcept {
+        const T versine = 1 - std::cos(half_angle);
+        return {lumis::direction_at(u.x * versine, u.y), pdf({T(0), T(0), T(1)})};
+    }
+    T pdf(const Point& w) const noexcept {
+        const T pdf = std::numbers::inv_pi_v<T> / (2 * (1 - std::cos(half_angle)));
+        return w.z >= std::cos(half_angle) ? lumis::density_or_zero(pdf) : T(0);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("the law of stability refuses", "[laws]") {
+    const auto cone = []<class T>(double half_angle) { return TextbookCone<T>{static_cast<T>(half_angle)}; };
+    CHECK(laws::stability(std::vector{1.0, 0.5}, cone).passed);
+    const auto law = laws::stability(std::vector{1.0, 0.5, 0x1p-12}, cone);
+    CHECK_FALSE(law.passed);
+    CHECK(law.message.find("parameter 2") != std::string::npos);
+
+    // Finite in double only.
+    const auto overflowing = []<class T>(double radius) {
+        const auto squared = [radius](const auto&, T) { return T(1) / static_cast<T>(radius * radius); };
+        const auto spoil = [squared](auto sample) {
+            sample.pdf = squared(sample.value, sample.pdf);
+            return sample;
+        };
+        return Broken{lumis::UniformHemisphere<T>{}, spoil, squared};
+    };
+    CHECK(laws::stability(std::vector{1.0}, overflowing, {.undecided = 1}).passed);
+    CHECK_FALSE(laws::stability(std::vector{1e-30}, overflowing, {.undecided = 1}).passed);
 }
 
 TEST_CASE("unbiasedness refuses", "[laws]") {
@@ -167,6 +344,55 @@ TEST_CASE("unbiasedness refuses", "[laws]") {
     CHECK_FALSE(laws::unbiased([&] { return std::exchange(once, false) ? nan : estimate(); }, 1).passed);
     CHECK(laws::unbiased([] { return 1.0; }, 1).passed);
     CHECK_FALSE(laws::unbiased([] { return 1.0; }, 1.0001).passed);
+}
+
+namespace {
+
+// A two-technique estimator written out, with what is easily got wrong left to the caller: the density that weighs, and
+// the selection probability that divides.
+template <class Weigh>
+auto handwritten(const Weigh& weigh, double divisor) {
+    return [=](const auto& heuristic, auto& uniforms) {
+        const bool first = uniforms.template next<1>().x < 0.2;
+        const auto sample =
+            first ? Cosine{}.sample(uniforms.template next<2>()) : Uniform{}.sample(uniforms.template next<2>());
+        if (!(sample.pdf > 0)) return 0.0;
+        const double p = 0.2 * Cosine{}.pdf(sample.value), q = 0.8 * Uniform{}.pdf(sample.value);
+        const double selection = std::fmax(first ? 0.2 : 0.8, divisor);
+        return weigh(heuristic, first ? p : q, first ? q : p, first) * sample.value.z / (selection * sample.pdf);
+    };
+}
+
+}  // namespace
+
+TEST_CASE("unbiasedness under every heuristic refuses", "[laws]") {
+    const double pi = std::numbers::pi;
+    const auto passes = [pi](const auto& estimate) {
+        return laws::unbiased_under_every_heuristic<double>(estimate, pi, {20'000}).passed;
+    };
+    const auto right = [](const auto& h, double own, double other, bool) { return lumis::mis_weight(h, own, other); };
+    // In one of the two techniques: swapped in both, weights would still sum to 1.
+    const auto swapped = [](const auto& h, double own, double other, bool first) {
+        return first ? lumis::mis_weight(h, other, own) : lumis::mis_weight(h, own, other);
+    };
+    CHECK(passes(handwritten(right, 0)));
+    CHECK_FALSE(passes(handwritten(swapped, 0)));
+    CHECK_FALSE(passes(handwritten(right, 1)));  // forgot the selection probability
+
+    const auto integrates = [pi](const auto& first, const auto& second) {
+        const auto f = [](const V& w) { return std::fmax(w.z, 0); };
+        return laws::unbiased_under_every_heuristic(f, pi, laws::factors_of_two, {20'000}, first, second).passed;
+    };
+    CHECK(integrates(Cosine{}, Uniform{}));
+    const auto doubled = consistently_broken(Uniform{}, [](const V&, double pdf) { return 2 * pdf; });
+    CHECK_FALSE(integrates(Cosine{}, doubled));
+    const auto narrowed = consistently_broken(Uniform{}, [](const V& w, double pdf) { return w.z < 0.3 ? 0 : pdf; });
+    CHECK_FALSE(integrates(narrowed, Cosine{}));
+    // A light set that forgot how likely it was to select its light.
+    using Set = lumis::Mixture<Cosine, Uniform>;
+    const Set set{lumis::choose(0.5, Cosine{}), lumis::choose(0.5, Uniform{})};
+    CHECK(integrates(Cosine{}, set));
+    CHECK_FALSE(integrates(Cosine{}, consistently_broken(set, [](const V&, double pdf) { return pdf / 0.5; })));
 }
 
 // The p-values of a correct strategy are uniform: the test is neither too strict nor too lax.

@@ -80,6 +80,53 @@ TEMPLATE_TEST_CASE("what is drawn lies in its entry's run", "[cumulative_counts]
     CHECK(lumis::counts_of<T>(table, 5) <= 2);
 }
 
+TEST_CASE("float: an entry owns as many of all 2^24 uniforms as it has counts", "[cumulative_counts]") {
+    const std::vector<double> weights{0, 1, 1e-8, 0, 1, 3, 0.3, 0, 1e-3, 0};
+    const auto starts = deal<float>(weights);
+    std::vector<std::uint32_t> drawn(weights.size());
+    float last = 0;
+    std::size_t before = 0;
+    bool ordered = true, within = true;
+    for (std::uint32_t k = 0; k < 1u << 24; ++k) {
+        const auto entry = lumis::draw_entry<float>(starts, static_cast<float>(k) * 0x1p-24f);
+        ++drawn.at(entry.index);
+        ordered = ordered && entry.index >= before && (entry.index > before || entry.position >= last);
+        within = within && entry.position > 0 && entry.position <= 1;
+        before = entry.index;
+        last = entry.position;
+    }
+    CHECK(ordered);
+    CHECK(within);
+    for (std::size_t i = 0; i < weights.size(); ++i) CHECK(drawn[i] == lumis::counts_of<float>(starts, i));
+}
+
+TEMPLATE_TEST_CASE("an entry and a position lead back to their uniform", "[cumulative_counts]", float, double) {
+    using T = TestType;
+    const auto starts = deal<T>({0, 2, 0, 0, 1, 1e-12, 5, 0});
+    for (const double u : {0.0, 0.01, 0.2499, 0.3, 0.5, 0.77, 0.999999}) {
+        const auto entry = lumis::draw_entry<T>(starts, static_cast<T>(u));
+        const double back = lumis::uniform_of<T>(starts, entry.index, entry.position);
+        CHECK(std::abs(back - u) <= 4 * double{std::numeric_limits<T>::epsilon()});
+    }
+}
+
+TEMPLATE_TEST_CASE("points and the cells that hold them", "[cumulative_counts]", float, double) {
+    using T = TestType;
+    const T nan = std::numeric_limits<T>::quiet_NaN(), inf = std::numeric_limits<T>::infinity();
+    CHECK(lumis::index_of(T(0), 4) == 0);
+    CHECK(lumis::index_of(T(0.25), 4) == 1);
+    CHECK(lumis::index_of(T(0.999), 4) == 3);
+    CHECK(lumis::index_of(T(1), 4) == 3);
+    for (const T x : {T(-1), nan, -inf}) CHECK(lumis::index_of(x, 4) == 0);
+    for (const T x : {T(2), T(1e30), inf}) CHECK(lumis::index_of(x, 4) == 3);
+    for (const std::size_t n : {1u, 3u, 1000u, 1u << 24}) {
+        for (const T position : {T(0), T(0.5), T(1)}) {
+            const T moved = lumis::clear_of_edges(position, n);
+            CHECK((moved > 0 && moved < 1));
+        }
+    }
+}
+
 TEST_CASE("refused weights are named", "[cumulative_counts]") {
     const auto message = [](std::vector<float> weights) {
         try {

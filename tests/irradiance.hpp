@@ -17,7 +17,7 @@
 namespace irradiance {
 
 // All z-tests of estimators in these files are one family: a correct library fails any of them with probability 0.01.
-inline constexpr lumis::testing::Significance significance{0.01, 300};
+inline constexpr lumis::testing::Significance significance{0.01, 400};
 
 // A bias of 0.5 % is then five standard errors.
 inline constexpr double relative_standard_error = 1e-3;

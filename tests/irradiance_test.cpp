@@ -4,6 +4,7 @@
 
 #include "catch.hpp"
 
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -23,11 +24,31 @@ namespace {
 using V = glm::dvec3;
 
 // visible(w): whether the emitter lies in a direction, told without the library.
+template <class Visible>
+auto cosine_where(Visible visible) {
+    return [=]<class T>(const glm::vec<3, T>& w) { return w.z > 0 && visible(V{w}) ? w.z : T(0); };
+}
+
+// By the light alone, and by two samples of it and one of the BSDF.
+template <class Light, class Visible>
+void check_briefly(const std::string& name, const Light& light, Visible visible, double answer) {
+    using T = typename Light::Scalar;
+    const auto f = cosine_where(visible);
+    const auto alone = lumis::multi_sample(lumis::BalanceHeuristic{}, lumis::take(1, light));
+    check_unbiased<T>(
+        name, [&](auto& uniforms) { return alone.estimate(f, uniforms); }, answer);
+    const auto both = lumis::multi_sample(lumis::PowerHeuristic{}, lumis::take(1, lumis::CosineHemisphere<T>{}),
+                                          lumis::take(2, light));
+    check_unbiased<T>(
+        name + ", MIS", [&](auto& uniforms) { return both.estimate(f, uniforms); }, answer);
+}
+
+// In many ways.
 template <class Light, class Visible>
 void check(const std::string& name, const Light& light, Visible visible, double answer) {
     using T = typename Light::Scalar;
     const lumis::CosineHemisphere<T> cosine;
-    const auto f = [&](const glm::vec<3, T>& w) { return w.z > 0 && visible(V{w}) ? w.z : T(0); };
+    const auto f = cosine_where(visible);
     const auto run = [&](const char* how, const auto& combination) {
         check_unbiased<T>(
             name + ", " + how, [&](auto& uniforms) { return combination.estimate(f, uniforms); }, answer);
@@ -56,19 +77,54 @@ auto light(const Shape& shape) {
 
 TEMPLATE_TEST_CASE("irradiance from polygons", "[irradiance]", float, double) {
     using T = TestType;
+    const auto both = [](const std::string& name, const auto& shape, auto visible, double answer) {
+        check_briefly(name + " by area", light<T>(shape), visible, answer);
+        check(name + " by solid angle", light<T, lumis::BySolidAngle>(shape), visible, answer);
+    };
     const lumis::Triangle<T> triangle{point<T>(0, 0, 1), point<T>(1, 0, 1), point<T>(0, 1, 1)};
-    check(
-        "triangle", light<T>(triangle), [](const V& w) { return w.x >= 0 && w.y >= 0 && w.x + w.y <= w.z; },
-        0.302299894039);
+    both(
+        "triangle", triangle, [](const V& w) { return w.x >= 0 && w.y >= 0 && w.x + w.y <= w.z; }, 0.302299894039);
 
     const lumis::Triangle<T> octant{point<T>(1, 0, 0), point<T>(0, 1, 0), point<T>(0, 0, 1)};
-    check(
-        "octant", light<T>(octant), [](const V& w) { return w.x >= 0 && w.y >= 0; }, std::numbers::pi / 4);
+    both(
+        "octant", octant, [](const V& w) { return w.x >= 0 && w.y >= 0; }, std::numbers::pi / 4);
 
     const lumis::Parallelogram<T> square{point<T>(-1, -1, 1), point<T>(2, 0, 0), point<T>(0, 2, 0)};
-    check(
-        "square", light<T>(square), [](const V& w) { return std::abs(w.x) <= w.z && std::abs(w.y) <= w.z; },
-        1.740839502734);
+    both(
+        "square", square, [](const V& w) { return std::abs(w.x) <= w.z && std::abs(w.y) <= w.z; }, 1.740839502734);
+}
+
+// Straight above in closed form; aslant and dipping below the horizon by quadrature over its area.
+TEMPLATE_TEST_CASE("irradiance from disks", "[irradiance]", float, double) {
+    using T = TestType;
+    const auto check_disk = [](const std::string& name, const V& center, const V& normal, double radius,
+                               double answer) {
+        const auto visible = [=](const V& w) {
+            const double distance = glm::dot(center, normal) / glm::dot(w, normal);
+            return distance > 0 && glm::length(distance * w - center) <= radius;
+        };
+        const lumis::Disk<T> disk{glm::vec<3, T>(center), glm::vec<3, T>(normal), static_cast<T>(radius)};
+        check_briefly(name, light<T>(disk), visible, answer);
+    };
+    check_disk("disk above", {0, 0, 1}, {0, 0, -1}, 1, std::numbers::pi / 2);
+    const auto by_quadrature = [](const V& center, const V& normal, double radius) {
+        using boost::math::quadrature::gauss_kronrod;
+        const V n = glm::normalize(normal), t = glm::normalize(glm::cross(n, V{0.3, 0.5, 0.7})), b = glm::cross(n, t);
+        const auto at = [&](double r, double phi) {
+            const V p = center + r * (std::cos(phi) * t + std::sin(phi) * b);
+            const double d2 = glm::dot(p, p);
+            return std::max(p.z, 0.0) * std::abs(glm::dot(p, n)) / (d2 * d2) * r;
+        };
+        const auto ring = [&](double r) {
+            return gauss_kronrod<double, 31>::integrate([&](double phi) { return at(r, phi); }, 0, 2 * std::numbers::pi,
+                                                        10, 1e-9);
+        };
+        return gauss_kronrod<double, 31>::integrate(ring, 0, radius, 10, 1e-8);
+    };
+    CHECK(by_quadrature({0, 0, 1}, {0, 0, 1}, 1) == Approx(std::numbers::pi / 2).epsilon(1e-7));
+    const V center{1.2, -0.5, 1.5}, low{1.5, 0.5, 0.4};
+    check_disk("disk aslant", center, {0.3, 0.4, -2}, 0.7, by_quadrature(center, {0.3, 0.4, -2}, 0.7));
+    check_disk("disk below the horizon", low, {-1, 0, 0.2}, 0.8, by_quadrature(low, {-1, 0, 0.2}, 0.8));
 }
 
 // By Lambert's formula; an asymmetric shape, so that its edges cannot be mistaken for one another.
@@ -89,7 +145,8 @@ TEMPLATE_TEST_CASE("irradiance from a skew parallelogram", "[irradiance]", float
         return distance > 0 && s >= 0 && s <= 1 && t >= 0 && t <= 1;
     };
     const lumis::Parallelogram<T> shape{glm::vec<3, T>(a), glm::vec<3, T>(u), glm::vec<3, T>(v)};
-    check("skew", light<T>(shape), visible, std::abs(answer));
+    check("skew by area", light<T>(shape), visible, std::abs(answer));
+    check_briefly("skew by solid angle", light<T, lumis::BySolidAngle>(shape), visible, std::abs(answer));
 }
 
 TEMPLATE_TEST_CASE("irradiance from spheres", "[irradiance]", float, double) {

@@ -11,7 +11,7 @@ namespace laws = lumis::testing;
 
 // A correct library fails one of the laws here with this probability. Seeds are fixed: it either does or does not.
 // The family is larger than the number of subjects times scalars, and a test sees to that.
-constexpr laws::Significance significance{0.01, 1000};
+constexpr laws::Significance significance{0.01, 1500};
 
 template <class... Lists>
 std::size_t count(const std::tuple<Lists...>*) {

@@ -83,6 +83,32 @@ struct ParallelogramByArea {
     }
 };
 
+struct DiskByArea {
+    template <class T>
+    static auto make() {
+        using V = glm::dvec3;
+        struct Case {
+            const char* label;
+            V center, normal;
+            double radius;
+        };
+        const Case cases[] = {
+            {"above", {0, 0, 1}, {0, 0, -1}, 1},
+            {"tilted and far", {10, 3, 20}, {1, 2, 2}, 2},
+            {"filling the view", {0.1, 0, 0.05}, {0, 0, 1}, 1},
+            {"tiny", {0.3, 0.2, 1}, {0.2, 0, 1}, 1e-4},
+        };
+        std::vector<Subject<lumis::AreaLight<lumis::Disk<T>>>> result;
+        for (const auto& [name, center, normal, radius] : cases) {
+            const lumis::Frame<double> frame{glm::normalize(normal)};
+            const lumis::Disk<T> disk{glm::vec<3, T>(center), glm::vec<3, T>(normal), static_cast<T>(radius)};
+            const auto [chart, blur] = view_of(center, radius * frame.tangent(), radius * frame.bitangent());
+            result.push_back({name, {disk, {}}, chart, 1.0, blur * std::numeric_limits<T>::epsilon()});
+        }
+        return result;
+    }
+};
+
 inline const glm::dvec3 sphere_direction = glm::normalize(glm::dvec3{0.3, -0.5, 0.8});
 inline constexpr double half_angles[] = {0.01, 0.1, 1, 10, 45, 80, 89};  // in degrees
 
@@ -120,7 +146,8 @@ struct SphereBySolidAngle {
     }
 };
 
-struct EnvironmentMap {
+template <bool mis_compensation>
+struct EnvironmentMaps {
     template <class T>
     static auto make() {
         std::vector<Subject<lumis::EnvironmentMap<T>>> result;
@@ -129,7 +156,8 @@ struct EnvironmentMap {
                 const bool nearest = interpolation == lumis::Interpolation::Nearest;
                 result.push_back(
                     {label(name, nearest ? ", nearest" : ", bilinear"),
-                     lumis::EnvironmentMap{width, height, texels, lumis::EnvironmentOptions{interpolation}},
+                     lumis::EnvironmentMap{width, height, texels,
+                                           lumis::EnvironmentOptions{interpolation, mis_compensation}},
                      lumis::testing::latlong_chart(static_cast<std::size_t>(width), static_cast<std::size_t>(height)),
                      1.0,
                      0,
@@ -158,5 +186,8 @@ struct EnvironmentMap {
         return result;
     }
 };
+
+using EnvironmentMap = EnvironmentMaps<false>;
+using CompensatedEnvironmentMap = EnvironmentMaps<true>;
 
 }  // namespace subjects

@@ -57,6 +57,25 @@ struct UniformHemisphere {
     }
 };
 
+struct UniformSphere {
+    template <class T>
+    static std::vector<Subject<lumis::UniformSphere<T>>> make() {
+        return {{"", {}, lumis::testing::sphere_chart()}};
+    }
+};
+
+struct GgxNdf {
+    template <class T>
+    static auto make() {
+        std::vector<Subject<lumis::GgxNdf<T>>> result;
+        for (const auto& alpha : alphas) {
+            const lumis::GgxNdf<T> normals{glm::vec<2, T>(alpha)};
+            result.push_back({label("alpha ", alpha), normals, normals_chart(alpha)});
+        }
+        return result;
+    }
+};
+
 struct GgxVndf {
     template <class T>
     static auto make() {
@@ -74,6 +93,33 @@ struct GgxReflection {
                                                     {glm::vec<3, T>(wo), glm::vec<2, T>(alpha)},
                                                     lumis::testing::reflected_chart(wo, normals_chart(alpha)),
                                                     std::nullopt};
+        });
+    }
+};
+
+struct GgxBoundedReflection {
+    template <class T>
+    static auto make() {
+        return over_roughness<T>([](const glm::dvec3& wo, const glm::dvec2& alpha) {
+            return Subject<lumis::GgxBoundedReflection<T>>{"",
+                                                           {glm::vec<3, T>(wo), glm::vec<2, T>(alpha)},
+                                                           lumis::testing::reflected_chart(wo, normals_chart(alpha)),
+                                                           std::nullopt};
+        });
+    }
+};
+
+// Classical half-vector sampling, which draws normals that wo does not see.
+struct ReflectedGgxNdf {
+    template <class T>
+    static auto make() {
+        return over_roughness<T>([](const glm::dvec3& wo, const glm::dvec2& alpha) {
+            const lumis::GgxNdf<T> normals{glm::vec<2, T>(alpha)};
+            return Subject<lumis::Reflected<lumis::GgxNdf<T>>>{
+                "",
+                {glm::vec<3, T>(wo), normals},
+                lumis::testing::reflected_chart(wo, normals_chart(alpha)),
+                std::nullopt};
         });
     }
 };

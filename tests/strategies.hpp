@@ -2,20 +2,35 @@
 // whose make<T>() yields its instances.
 #pragma once
 
+#include "combined_subjects.hpp"
 #include "light_subjects.hpp"
 #include "scattering_subjects.hpp"
+#include "solid_angle_subjects.hpp"
 
 #include <tuple>
 
-using Strategies = std::tuple<subjects::CosineHemisphere,      //
-                              subjects::UniformHemisphere,     //
-                              subjects::GgxVndf,               //
-                              subjects::GgxReflection,         //
-                              subjects::ReflectedCosine,       //
-                              subjects::GgxReflectionInFrame,  //
-                              subjects::CoatedDiffuse,         //
-                              subjects::TriangleByArea,        //
-                              subjects::ParallelogramByArea,   //
-                              subjects::SphereByArea,          //
-                              subjects::SphereBySolidAngle,    //
-                              subjects::EnvironmentMap>;
+using Strategies = std::tuple<subjects::CosineHemisphere,           //
+                              subjects::UniformHemisphere,          //
+                              subjects::UniformSphere,              //
+                              subjects::GgxNdf,                     //
+                              subjects::GgxVndf,                    //
+                              subjects::GgxReflection,              //
+                              subjects::GgxBoundedReflection,       //
+                              subjects::ReflectedGgxNdf,            //
+                              subjects::ReflectedCosine,            //
+                              subjects::GgxReflectionInFrame,       //
+                              subjects::CoatedDiffuse,              //
+                              subjects::TriangleByArea,             //
+                              subjects::ParallelogramByArea,        //
+                              subjects::DiskByArea,                 //
+                              subjects::SphereByArea,               //
+                              subjects::TriangleBySolidAngle,       //
+                              subjects::ParallelogramBySolidAngle,  //
+                              subjects::SphereBySolidAngle,         //
+                              subjects::EnvironmentMap,             //
+                              subjects::CompensatedEnvironmentMap,  //
+                              subjects::PiecewiseConstant1D,        //
+                              subjects::PiecewiseConstant2D,        //
+                              subjects::AliasTable,                 //
+                              subjects::LightSet,                   //
+                              subjects::Mixture>;

@@ -3,7 +3,9 @@
 
 #include <lumis/testing/agreement.hpp>
 #include <lumis/testing/charts.hpp>
+#include <lumis/testing/points.hpp>
 #include <lumis/testing/result.hpp>
+#include <lumis/testing/round_trip.hpp>
 
 #include <optional>
 #include <string>
@@ -14,10 +16,13 @@ template <class S>
 struct Subject {
     std::string label;
     S strategy;
-    lumis::testing::DirectionChart chart;
+    lumis::testing::Chart<lumis::testing::InDouble<typename S::Point>> chart;
     std::optional<double> probability = 1.0;  // of something being drawn; none: to be counted
-    double blur = 0;  // by how much a slack for rounding at the support's edge may raise the integral, relative
+    // By how much a slack for rounding at the support's edge may raise the integral, and corners of the support mislead
+    // the quadrature, relative.
+    double blur = 0;
     lumis::testing::AgreementOptions agreement{};
+    lumis::testing::RoundTripOptions round_trip{};
 };
 
 template <class... Parts>

@@ -46,6 +46,10 @@ PROBLEM = {"name": TEXT, "title": TEXT, "kind": TEXT, "description": TEXT, "stra
 RESULTS = {"machine": dict.fromkeys(("cpu", "threads", "compiler", "flags", "date"), (str, int)),
            "settings": {"seeds": [COUNT]}, "problems": [PROBLEM], "stiff": STIFF}
 
+STABILITY_ROW = {"kernel": TEXT, "case": TEXT, "scalar": TEXT, "reference": TEXT, "evaluations": COUNT,
+                 "misbehaved": COUNT, "has_error": (bool,), "has_usual": (bool,), "has_z": (bool,), "passed": (bool,)} | dict.fromkeys((
+                     "worst_error", "error_limit", "usual_error", "worst_z", "z_limit", "standard_error"), NUMBER)
+
 
 # Load
 
@@ -66,7 +70,19 @@ def load(path):
             for image in filter(None, (owner.get("image"), owner.get("error_image"))):
                 if Path(image).is_absolute() or not (path.parent / image).is_file():
                     raise ValueError(f"problem {name}: the image '{image}' is not in the folder of the results")
+    results["stability"] = load_stability(path.with_name("stability.json"))
     return results
+
+
+def load_stability(path):
+    """The table of extreme cases, or None if the program `stability` has not written it."""
+    if not path.is_file():
+        return None
+    stability = json.loads(path.read_text(encoding="utf-8"))
+    if not isinstance(stability, dict) or stability.get("schema") != 1:
+        raise ValueError(f"{path.name} is not a table of extreme cases of schema 1")
+    check(stability, {"quick": (bool,), "rows": [STABILITY_ROW]}, path.name)
+    return stability
 
 
 def check(value, shape, where=""):
@@ -243,6 +259,12 @@ def factor(value):
     return f"{float(f'{value:.2g}'):,.10g}"
 
 
+def tiny(value):
+    """An error as text, as short as it gets: 0, 0.036, 3.2e−7, 5.1e10."""
+    text = "not finite" if value is None else f"{value:.2g}"
+    return re.sub("e([+-])0?", lambda sign: "e" + sign[1].strip("+"), text).replace("-", "−")
+
+
 def marker_points(marker):
     """The marker of the plot as the points of an SVG polygon in [-1, 1]²."""
     style = MarkerStyle(marker)
@@ -253,7 +275,8 @@ def marker_points(marker):
 def render(results, summary, results_name):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(Path(__file__).parent), autoescape=True,
                                      trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    environment.filters |= {function.__name__: function for function in (column_power, quantity, factor, marker_points)}
+    filters = (column_power, quantity, factor, tiny, marker_points)
+    environment.filters |= {function.__name__: function for function in filters}
     pixels = {suffix: [round(96 * inches) for inches in size] for suffix, size in SIZES.items()}
     return environment.get_template("report.html.jinja").render(
         **results, summary=summary, stiff_worst=worst_errors(results["stiff"]), results_name=results_name, plot_size=pixels)

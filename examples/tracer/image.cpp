@@ -1,6 +1,11 @@
 #include "image.hpp"
 
+#include "exr_check.hpp"
+
 #define STB_IMAGE_IMPLEMENTATION
+// Each format of stb's is a parser more that a corrupted file can reach.
+#define STBI_ONLY_HDR
+#define STBI_ONLY_PNG
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <glm/geometric.hpp>
 #include <stb/stb_image.h>
@@ -10,10 +15,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <memory>
+#include <sstream>
+#include <utility>
 
 namespace tracer {
 
@@ -49,46 +58,127 @@ void write_exr(const std::string& path, const Image& image) {
     }
 }
 
-Image read_exr(const std::string& path) {
-    Image image;
+constexpr std::uint64_t max_pixels = std::uint64_t{1} << 27;
+
+// tinyexr's own function for this leaks the header of a file whose pixels it cannot decode.
+struct Exr {
+    EXRHeader header;
+    EXRImage image;
+
+    Exr() {
+        InitEXRHeader(&header);
+        InitEXRImage(&image);
+    }
+    Exr(const Exr&) = delete;
+    Exr& operator=(const Exr&) = delete;
+    ~Exr() {
+        FreeEXRImage(&image);
+        FreeEXRHeader(&header);
+    }
+
+    // The only channel, or the one of a name; check_exr has seen to it that there is one.
+    [[nodiscard]] const float* channel(const char* name) const {
+        int c = 0;
+        while (header.num_channels > 1 && std::strcmp(header.channels[c].name, name) != 0) ++c;
+        return reinterpret_cast<const float*>(image.images[c]);
+    }
+};
+
+Image read_exr(std::span<const std::byte> bytes) {
+    check_exr(bytes, max_pixels);
+    const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
     const char* reason = nullptr;
-    float* values = nullptr;  // red, green, blue, alpha
-    if (LoadEXR(&values, &image.width, &image.height, path.c_str(), &reason) != TINYEXR_SUCCESS) {
-        throw FileError("cannot read " + path + ": " + take_reason(reason));
+    Exr exr;
+    EXRVersion version{};
+    version.version = 2;
+    if (ParseEXRHeaderFromMemory(&exr.header, &version, data, bytes.size(), &reason) != TINYEXR_SUCCESS) {
+        throw std::runtime_error(take_reason(reason));
     }
-    const std::unique_ptr<float, void (*)(void*)> owner{values, std::free};
+    std::fill_n(exr.header.requested_pixel_types, exr.header.num_channels, TINYEXR_PIXELTYPE_FLOAT);
+    // On failure it frees the image but leaves it dangling, and of the channels as many as the image says it has.
+    exr.image.num_channels = exr.header.num_channels;
+    if (LoadEXRImageFromMemory(&exr.image, &exr.header, data, bytes.size(), &reason) != TINYEXR_SUCCESS) {
+        InitEXRImage(&exr.image);
+        throw std::runtime_error(take_reason(reason));
+    }
+    Image image{exr.image.width, exr.image.height, {}};
     image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        image.pixels[i] = {values[4 * i], values[4 * i + 1], values[4 * i + 2]};
-    }
+    const float *red = exr.channel("R"), *green = exr.channel("G"), *blue = exr.channel("B");
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = {red[i], green[i], blue[i]};
     return image;
 }
 
-// A file as stb reads it. stb takes what is missing at the end of a Radiance file for zeros; this remembers that it was
-// asked for more than there is.
+// A file as stb reads it, which remembers that stb asked for more than there is. stb takes what is missing at the end of a
+// Radiance file for zeros, among them runs of length 0, and would not end; what it gets are line feeds, which end a header
+// and are no run of length 0.
 struct File {
-    std::ifstream stream;
+    std::span<const std::byte> rest;
     bool ended_early = false;
 
     static int read(void* self, char* data, int size) {
         auto& file = *static_cast<File*>(self);
-        const auto got = static_cast<int>(file.stream.read(data, size).gcount());
-        file.ended_early |= got == 0;
-        return got;
+        const std::size_t wanted = static_cast<std::size_t>(size), got = std::min(wanted, file.rest.size());
+        std::copy_n(reinterpret_cast<const char*>(file.rest.data()), got, data);
+        std::fill_n(data + got, wanted - got, '\n');
+        file.rest = file.rest.subspan(got);
+        // It fills its buffer with what is left; of anything else it needs all.
+        const bool is_buffer = wanted == sizeof(stbi__context::buffer_start);
+        file.ended_early |= got == 0 || (got < wanted && !is_buffer);
+        return got > 0 ? static_cast<int>(got) : size;
     }
-    static void skip(void* self, int bytes) { static_cast<File*>(self)->stream.ignore(bytes); }
-    static int eof(void* self) { return static_cast<File*>(self)->stream.eof(); }
+    static void skip(void* self, int size) {
+        auto& file = *static_cast<File*>(self);
+        file.rest = file.rest.subspan(std::min(static_cast<std::size_t>(size), file.rest.size()));
+    }
+    static int eof(void* self) { return static_cast<File*>(self)->rest.empty(); }
 };
 
-Image read_by_stb(const std::string& path) {
-    File file{std::ifstream{path, std::ios::binary}};
-    const stbi_io_callbacks callbacks{File::read, File::skip, File::eof};
+constexpr stbi_io_callbacks callbacks{File::read, File::skip, File::eof};
+
+// stb allocates what a chunk claims to hold, up to 1 GiB, and only then looks whether it is there.
+void check_png_chunks(std::span<const std::byte> bytes) {
+    constexpr std::size_t signature = 8, around = 12;  // length and name before a chunk's data, a checksum behind
+    if (bytes.size() < signature || bytes[0] != std::byte{0x89}) return;
+    bytes = bytes.subspan(signature);
+    for (bool is_end = false; !is_end;) {
+        if (bytes.size() < around) throw std::runtime_error("it ends too early");
+        std::size_t length = 0;
+        for (const std::byte b : bytes.first(4)) length = length << 8 | std::to_integer<std::size_t>(b);
+        if (length > bytes.size() - around) throw std::runtime_error("it ends too early");
+        is_end = std::memcmp(bytes.data() + 4, "IEND", 4) == 0;
+        bytes = bytes.subspan(around + length);
+    }
+}
+
+// stb allocates what the header asks for and only then looks for the pixels.
+void check_size(std::span<const std::byte> bytes) {
+    int width = 0, height = 0, channels = 0;
+    File file{bytes};
+    if (stbi_info_from_callbacks(&callbacks, &file, &width, &height, &channels) == 0) {
+        throw std::runtime_error(stbi_failure_reason());
+    }
+    const std::string size = "an image of " + std::to_string(width) + " x " + std::to_string(height);
+    if (width <= 0 || height <= 0) throw std::runtime_error(size);
+    const auto w = static_cast<std::uint64_t>(width), h = static_cast<std::uint64_t>(height);
+    if (w * h > max_pixels) throw std::runtime_error(size + " is too large");
+    File again{bytes};
+    // Radiance: a line of runs takes 4 bytes, and in each of 4 channels 2 bytes for up to 127 pixels; without runs, a pixel
+    // takes 4 bytes. PNG: deflate makes at most 1032 bytes of one, and a byte holds up to 8 pixels.
+    const bool is_radiance = stbi_is_hdr_from_callbacks(&callbacks, &again) != 0;
+    const std::uint64_t least = is_radiance ? h * std::min(4 + 8 * ((w + 126) / 127), 4 * w) : w * h / (8 * 1032);
+    if (least > bytes.size()) throw std::runtime_error(size + " is more than it can hold: it ends too early");
+}
+
+Image read_by_stb(std::span<const std::byte> bytes) {
+    check_png_chunks(bytes);
+    check_size(bytes);
+    File file{bytes};
     Image image;
     int channels = 0;
     const std::unique_ptr<float, void (*)(void*)> values{
         stbi_loadf_from_callbacks(&callbacks, &file, &image.width, &image.height, &channels, 3), stbi_image_free};
-    if (values == nullptr) throw FileError("cannot read " + path + ": " + stbi_failure_reason());
-    if (file.ended_early) throw FileError("cannot read " + path + ": it ends too early");
+    if (file.ended_early) throw std::runtime_error("it ends too early");
+    if (values == nullptr) throw std::runtime_error(stbi_failure_reason());
     image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     std::memcpy(image.pixels.data(), values.get(), image.pixels.size() * sizeof(glm::vec3));
     return image;
@@ -102,8 +192,20 @@ float luminance(const glm::vec3& color) noexcept {
 
 Image read_image(const std::string& path) {
     // The libraries say only that they cannot; the system knows why.
-    if (!std::ifstream{path}) throw FileError("cannot read " + path + ": " + std::strerror(errno));
-    return path.ends_with(".exr") ? read_exr(path) : read_by_stb(path);
+    std::ifstream stream{path, std::ios::binary};
+    if (!stream) throw FileError("cannot read " + path + ": " + std::strerror(errno));
+    std::ostringstream content;
+    content << stream.rdbuf();
+    const std::string bytes = std::move(content).str();
+    return read_image(std::as_bytes(std::span{bytes}), path);
+}
+
+Image read_image(std::span<const std::byte> bytes, const std::string& name) {
+    try {
+        return name.ends_with(".exr") ? read_exr(bytes) : read_by_stb(bytes);
+    } catch (const std::exception& error) {
+        throw FileError("cannot read " + name + ": " + error.what());
+    }
 }
 
 bool is_writable_format(const std::string& path) {

@@ -3,6 +3,8 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstddef>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -22,8 +24,11 @@ struct FileError : std::runtime_error {
 // Rec. 709.
 [[nodiscard]] float luminance(const glm::vec3& color) noexcept;
 
-// By the ending: .exr files, else Radiance .hdr files and whatever else stb reads (made linear).
+// By the ending: .exr files (see exr_check.hpp for which), else Radiance .hdr and .png files (made linear). Throws FileError
+// for what is not well formed, for more than 2^27 pixels (16384 x 8192), and for more than the file can hold.
 [[nodiscard]] Image read_image(const std::string& path);
+// The same from a file's bytes; `name` gives the ending and stands in messages.
+[[nodiscard]] Image read_image(std::span<const std::byte> bytes, const std::string& name);
 
 // By the ending: .exr keeps the linear values, .png shows them in sRGB.
 [[nodiscard]] bool is_writable_format(const std::string& path);

@@ -4,6 +4,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <span>
+#include <string>
+#include <string_view>
 
 namespace {
 
@@ -80,4 +84,62 @@ TEST_CASE("a file that cannot be read or written says which and why") {
     }
     std::ofstream{folder.file("cut.hdr")} << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 64\n";
     CHECK(reading(folder.file("cut.hdr")).starts_with("cannot read " + folder.file("cut.hdr") + ": "));
+}
+
+// What tests/fuzz/image_fuzzer.cpp found.
+TEST_CASE("a corrupted file is refused before it costs memory or time") {
+    const auto reading = [](std::string_view bytes, const std::string& name) {
+        return message_of([&] { (void)read_image(std::as_bytes(std::span{bytes}), name); });
+    };
+    const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n";
+
+    // stb took what is missing for runs of length 0 and never came back.
+    const std::string start_of_line{"\2\2\0\10", 4};
+    CHECK(reading(header + "-Y 1 +X 8\n" + start_of_line, "a.hdr") == "cannot read a.hdr: it ends too early");
+    // stb missed that the last pixel is cut.
+    CHECK(reading(header + "-Y 1 +X 2\n1234567", "a.hdr") == "cannot read a.hdr: it ends too early");
+
+    // 1.5 GiB for 60 bytes.
+    CHECK(reading(header + "-Y 11000 +X 12000\n", "a.hdr") ==
+          "cannot read a.hdr: an image of 12000 x 11000 is more than it can hold: it ends too early");
+    CHECK(reading(header + "-Y 100000 +X 100000\n", "a.hdr") ==
+          "cannot read a.hdr: an image of 100000 x 100000 is too large");
+    CHECK(reading(header + "-Y -1 +X 8\n", "a.hdr") == "cannot read a.hdr: an image of 8 x -1");
+
+    // 1 GiB for a PNG's chunk that is not there.
+    const std::string_view png{"\211PNG\r\n\32\n\0\0\0\15IHDR\0\0\0\4\0\0\0\4\10\2\0\0\0abcd\77\0\0\0IDAT", 41};
+    CHECK(reading(png, "a.png") == "cannot read a.png: it ends too early");
+}
+
+TEST_CASE("an OpenEXR file that tinyexr would trust is refused") {
+    const Folder folder;
+    write_image(folder.file("a.exr"), Image{2, 1, {{1, 2, 3}, {4, 5, 6}}});
+    std::ifstream stream{folder.file("a.exr"), std::ios::binary};
+    const std::string good{std::istreambuf_iterator<char>{stream}, {}};
+    const auto reading = [](std::string_view bytes) {
+        return message_of([&] { (void)read_image(std::as_bytes(std::span{bytes}), "a.exr"); });
+    };
+    const auto changed = [&](std::size_t position, std::string_view bytes) {
+        std::string result = good;
+        return result.replace(position, bytes.size(), bytes);
+    };
+    const auto value_of = [&](std::string_view name_and_type) {
+        return good.find(name_and_type) + name_and_type.size() + 4;  // the value's size comes first
+    };
+    using namespace std::string_view_literals;
+    CHECK(reading(good) == "");
+
+    const std::size_t window = value_of("dataWindow\0box2i\0"sv);
+    CHECK(reading(changed(window + 8, "\xff\xff\xff\x7f\xff\xff\xff\x7f"sv)) ==
+          "cannot read a.exr: its data window is out of range");
+    CHECK(reading(changed(window + 8, "\xff\xff\x00\0\xff\xff\x00\0"sv)) ==
+          "cannot read a.exr: an image of 65536 x 65536 is too large");
+    CHECK(reading(changed(window + 8, "\xff\x0f\x00\0"sv)) == "cannot read a.exr: a chunk is too small for its pixels");
+    CHECK(reading(changed(value_of("compression\0compression\0"sv) - 4, "\0"sv)) ==
+          "cannot read a.exr: attribute compression is empty or occurs twice");
+    CHECK(reading(changed(4, "\2\2"sv)) == "cannot read a.exr: only single-part scanline OpenEXR files are supported");
+    // Every other byte that is missing.
+    for (std::size_t size = 0; size < good.size(); ++size) {
+        CHECK(reading(good.substr(0, size)).starts_with("cannot read a.exr: "));
+    }
 }

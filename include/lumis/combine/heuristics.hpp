@@ -53,7 +53,8 @@ struct BalanceHeuristic {
     }
 };
 
-// Weights in proportion to the densities to the power of beta: sharper, better where one technique is nearly perfect.
+// Weights in proportion to the densities to the power of beta, 1 or more: sharper, better where one technique is nearly
+// perfect.
 struct PowerHeuristic {
     double beta = 2;
 
@@ -61,7 +62,8 @@ struct PowerHeuristic {
     [[nodiscard]] T operator()(std::size_t own, std::span<const T> densities) const noexcept {
         const auto power = [this](T p, T p_own) {
             const T ratio = p / p_own;
-            return beta == 2 ? ratio * ratio : std::pow(ratio, static_cast<T>(beta));
+            if (beta == 2) return ratio * ratio;
+            return ratio > 0 ? std::pow(ratio, static_cast<T>(beta)) : ratio;  // pow(0, 0) is 1
         };
         return detail::weight_by_ratios(own, densities, power);
     }

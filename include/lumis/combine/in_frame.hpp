@@ -29,7 +29,7 @@ class InFrame {
     [[nodiscard]] auto sample(UniformsOf<Local> u) const noexcept {
         auto sample = local_.sample(u);
         sample.value = frame_.to_world(sample.value);
-        return sample;
+        return all_finite(sample.value) ? sample : decltype(sample){};
     }
 
     [[nodiscard]] Scalar pdf(const Point& w) const noexcept { return local_.pdf(frame_.to_local(w)); }

@@ -78,7 +78,7 @@ class LightSet {
         for (std::size_t i = 0; i < table_.size(); ++i) {
             if (table_.pdf(i) > 0) sum += pdf_of(i, x);
         }
-        return sum;
+        return density_or_zero(sum);
     }
 
     // For hosts that treat what a light draws as its own, told apart from what another draws in the same direction: the

@@ -70,7 +70,7 @@ class Mixture {
         for_each_part([&](auto probability, const auto& part) {
             if (probability > 0) sum += probability * part.pdf(x);
         });
-        return sum;
+        return density_or_zero(sum);
     }
 
   private:

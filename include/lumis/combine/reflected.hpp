@@ -31,15 +31,22 @@ class Reflected {
         const Point& wm = normal.value;
         // Divided by wm's own length: else its rounding would lengthen wi, by up to five units in the last place.
         const Point wi = 2 * glm::dot(wo_, wm) / glm::dot(wm, wm) * wm - wo_;
-        return {wi, pdf(wi)};
+        const Scalar density = pdf(wi);
+        if (!(density > 0)) return {};
+        return {wi, density};
     }
 
-    // wo + wi is 2 (wo.wm) wm: its length is the Jacobian's cosine without the cancellation of a dot product.
+    // wo + wi is 2 (wo.wm) wm: its length is the Jacobian's cosine without the cancellation of a dot product, of which
+    // grazing directions leave no digit. Normals whose density has that cosine as a factor say so, and it is never formed.
     [[nodiscard]] Scalar pdf(const Point& wi) const noexcept {
         if (!(wo_.z > 0 && wi.z > 0)) return 0;
         const Point half = wo_ + wi;
         const Scalar length = glm::length(half);
-        return density_or_zero(normals_.pdf(half / length) / (2 * length));
+        if constexpr (requires { normals_.pdf_per_cosine(half); }) {
+            return density_or_zero(normals_.pdf_per_cosine(half / length) / 4);
+        } else {
+            return density_or_zero(normals_.pdf(half / length) / (2 * length));
+        }
     }
 
     [[nodiscard]] UniformsOf<Normals> invert(const Point& wi) const noexcept requires InvertibleStrategy<Normals> {

@@ -34,4 +34,17 @@ template <std::floating_point T>
     return pdf > 0 && pdf <= std::numeric_limits<T>::max() ? pdf : T(0);
 }
 
+// Whether a squared length has all its digits: then it is that of a vector which can be made a unit one.
+template <std::floating_point T>
+[[nodiscard]] constexpr bool is_squared_length(T squared) noexcept {
+    return squared >= std::numeric_limits<T>::min() && squared <= std::numeric_limits<T>::max();
+}
+
+// Whether no component is NaN or infinite.
+template <std::floating_point T>
+[[nodiscard]] constexpr bool all_finite(const glm::vec<3, T>& v) noexcept {
+    constexpr T largest = std::numeric_limits<T>::max();
+    return v.x >= -largest && v.x <= largest && v.y >= -largest && v.y <= largest && v.z >= -largest && v.z <= largest;
+}
+
 }  // namespace lumis

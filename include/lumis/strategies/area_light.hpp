@@ -35,7 +35,7 @@ struct ViewOf<Sphere<T>> : std::type_identity<SphereView<T>> {};
 
 }  // namespace detail
 
-// A shape without area, seen edge-on or from distance 0 draws nothing.
+// A shape without area, seen edge-on, from distance 0 or one whose square is out of range draws nothing.
 template <class Shape>
 class AreaLight<Shape, ByArea> {
   public:
@@ -50,7 +50,7 @@ class AreaLight<Shape, ByArea> {
     [[nodiscard]] LightSample<Point, Scalar> sample(glm::vec<2, Scalar> u) const noexcept {
         const auto [position, cos_times_distance] = view_.sample(u);
         const Scalar distance = glm::length(position);
-        if (!(distance > 0 && distance <= std::numeric_limits<Scalar>::max())) return {};
+        if (!is_squared_length(distance * distance)) return {};
         return {position / distance, pdf_from_hit(distance, cos_times_distance / distance), distance};
     }
 
@@ -60,11 +60,10 @@ class AreaLight<Shape, ByArea> {
     }
 
     // Not for spheres, on which two points can lie in one direction.
-    [[nodiscard]] glm::vec<2, Scalar> invert(const Point& w) const noexcept requires
-        requires(typename detail::ViewOf<Shape>::type view) {
-        view.invert(w);
+    [[nodiscard]] glm::vec<2, Scalar> invert(const Point& w) const noexcept
+        requires(!std::same_as<Shape, Sphere<Scalar>>) {
+        return view_.invert(w);
     }
-    { return view_.invert(w); }
 
     // For hosts that already know where a ray hit this light: the distance, and the cosine between the ray and the
     // surface normal there, of either sign.

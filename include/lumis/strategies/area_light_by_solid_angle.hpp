@@ -12,6 +12,17 @@
 
 namespace lumis {
 
+namespace detail {
+
+// Nothing where rounding has put the direction beside the light. On a sphere's surface the distance is 0.
+template <std::floating_point T>
+[[nodiscard]] LightSample<Direction<T>, T> seen_at(const Direction<T>& w, T pdf, T distance) noexcept {
+    if (!(all_finite(w) && distance >= 0 && distance <= std::numeric_limits<T>::max())) return {};
+    return {w, pdf, distance};
+}
+
+}  // namespace detail
+
 // The sphere's cone of directions evenly (Shirley, Wang and Zimmerman 1996); from inside, all directions evenly.
 template <std::floating_point T>
 class AreaLight<Sphere<T>, BySolidAngle> {
@@ -28,7 +39,7 @@ class AreaLight<Sphere<T>, BySolidAngle> {
     [[nodiscard]] LightSample<Point, T> sample(glm::vec<2, T> u) const noexcept {
         if (!(pdf_ > 0)) return {};
         const auto [direction, distance] = view_.direction(u);
-        return {direction, pdf_, distance};
+        return detail::seen_at(direction, pdf_, distance);
     }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept { return view_.invert(w); }
@@ -63,7 +74,7 @@ class AreaLight<Triangle<T>, BySolidAngle> {
     [[nodiscard]] LightSample<Point, T> sample(glm::vec<2, T> u) const noexcept {
         if (!(pdf_ > 0)) return {};
         const Point w = seen_.sample(u);
-        return {w, pdf_, view_.distance_along(w)};
+        return detail::seen_at(w, pdf_, view_.distance_along(w));
     }
 
     [[nodiscard]] T pdf(const Point& w) const noexcept { return view_.intersect(w).distance > 0 ? pdf_ : T(0); }
@@ -94,15 +105,20 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     AreaLight(const Parallelogram<T>& shape, const glm::vec<3, T>& reference_point) noexcept
         : view_{shape, reference_point},
           first_{half(view_.edge_u(), view_.edge_u() + view_.edge_v())},
-          second_{half(view_.edge_u() + view_.edge_v(), view_.edge_v())},
-          solid_angle_{view_.edge_on() ? T(0) : first_.solid_angle() + second_.solid_angle()},
+          second_{half(view_.edge_v(), view_.edge_u() + view_.edge_v())},
+          solid_angle_{!view_.edge_on() && first_.solid_angle() > 0 && second_.solid_angle() > 0
+                           ? first_.solid_angle() + second_.solid_angle()
+                           : T(0)},
           pdf_{density_or_zero(1 / solid_angle_)} {
         constexpr T epsilon = std::numeric_limits<T>::epsilon();
         const T square = glm::dot(view_.edge_u(), view_.edge_u()) * glm::dot(view_.edge_v(), view_.edge_v());
         const bool is_rectangle = std::abs(glm::dot(view_.edge_u(), view_.edge_v())) <= 4 * epsilon * std::sqrt(square);
-        // What Urena's angles lose, epsilon over the solid angle, is then below 1e-5 of the edges.
-        if (is_rectangle && solid_angle_ > 1e5f * epsilon) {
+        // What Urena's angles lose, epsilon over the solid angle, is then below 1e-5 of the edges. They square the height.
+        const T height = glm::dot(view_.corner(), glm::cross(view_.edge_u(), view_.edge_v()));
+        if (is_rectangle && solid_angle_ > 1e5f * epsilon && is_squared_length(height * height)) {
             rectangle_.emplace(view_.corner(), view_.edge_u(), view_.edge_v(), solid_angle_);
+            solid_angle_ = rectangle_->solid_angle();
+            pdf_ = density_or_zero(1 / solid_angle_);
         }
     }
 
@@ -116,10 +132,9 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
             w = position / glm::length(position);
         } else {
             const T share = first_.solid_angle() / solid_angle_;
-            w = u.x < share ? first_.sample({u.x / share, u.y})
-                            : second_.sample({std::min((u.x - share) / (1 - share), T(1)), u.y});
+            w = u.x < share ? first_.sample({u.x / share, u.y}) : second_.sample({(1 - u.x) / (1 - share), u.y});
         }
-        return {w, pdf_, view_.distance_along(w)};
+        return detail::seen_at(w, pdf_, view_.distance_along(w));
     }
 
     [[nodiscard]] T pdf(const Point& w) const noexcept { return view_.intersect(w).distance > 0 ? pdf_ : T(0); }
@@ -130,7 +145,7 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
         const glm::vec<3, T> across = glm::cross(view_.corner(), view_.edge_u() + view_.edge_v());  // of the diagonal
         const bool in_first = glm::dot(w, across) * glm::dot(view_.edge_u(), across) > 0;
         const glm::vec<2, T> u = in_first ? first_.invert(w) : second_.invert(w);
-        return {in_first ? u.x * share : share + u.x * (1 - share), u.y};
+        return {in_first ? u.x * share : 1 - u.x * (1 - share), u.y};
     }
 
     [[nodiscard]] T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
@@ -144,7 +159,7 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     }
 
     FlatView<Parallelogram<T>> view_;
-    SphericalTriangle<T> first_, second_;
+    SphericalTriangle<T> first_, second_;  // each from an edge to the diagonal, which may span half a turn
     T solid_angle_, pdf_;
     std::optional<SphericalRectangle<T>> rectangle_;
 };

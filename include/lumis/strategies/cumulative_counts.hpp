@@ -113,10 +113,12 @@ template <std::floating_point T>
            static_cast<T>(total_counts<T>);
 }
 
-// The one of n equal cells of [0, 1] that holds x.
+// The one of n equal cells of [0, 1] that holds x; beyond them the nearest, and the first for a NaN.
 template <std::floating_point T>
 [[nodiscard]] std::size_t index_of(T x, std::size_t n) noexcept {
-    return std::min(static_cast<std::size_t>(x * static_cast<T>(n)), n - 1);
+    const T scaled = x * static_cast<T>(n);
+    if (!(scaled > 0)) return 0;
+    return scaled < static_cast<T>(n) ? static_cast<std::size_t>(scaled) : n - 1;
 }
 
 // A position within one of n equal cells of [0, 1], moved a few units in the last place of 1 away from the cell's edges:

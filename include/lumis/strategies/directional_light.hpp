@@ -22,6 +22,7 @@ class DirectionalLight {
     constexpr explicit DirectionalLight(const Direction<T>& direction) noexcept : direction_{direction} {}
 
     [[nodiscard]] constexpr LightSample<Point, T> sample(glm::vec<2, T>) const noexcept {
+        if (!all_finite(direction_)) return {};
         return {direction_, T(1), std::numeric_limits<T>::infinity()};
     }
 

@@ -56,7 +56,7 @@ class FlatView {
         const T determinant = glm::dot(w, normal_) * unit_area_;
         const T s = glm::dot(w, across_u_) / determinant, t = glm::dot(w, across_v_) / determinant;
         if constexpr (is_triangle) {
-            return {(s + t) * (s + t), t / (s + t)};
+            return {(s + t) * (s + t), s + t > 0 ? t / (s + t) : T(0)};
         } else {
             return {s, t};
         }

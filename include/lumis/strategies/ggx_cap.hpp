@@ -47,8 +47,12 @@ class GgxCap {
     // G1(wo) / wo.z is 2 / (wo.z + stretched length), which is finite at grazing.
     [[nodiscard]] T pdf(const Point& wm) const noexcept {
         const T cos_om = glm::dot(wo_, wm);
-        if (!(wo_.z > 0 && cos_om > 0)) return T(0);
-        return density_or_zero(2 * cos_om * ggx_.D(wm) / ((1 - shortfall_) * wo_.z + length_));
+        return cos_om > 0 ? density_or_zero(cos_om * pdf_per_cosine(wm)) : T(0);
+    }
+
+    // pdf(wm) / wo.wm, of normals that wo sees: what is left of it after reflection.
+    [[nodiscard]] T pdf_per_cosine(const Point& wm) const noexcept {
+        return wo_.z > 0 ? density_or_zero(2 * ggx_.D(wm) / ((1 - shortfall_) * wo_.z + length_)) : T(0);
     }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& wm) const noexcept {

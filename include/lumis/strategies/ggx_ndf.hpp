@@ -37,7 +37,7 @@ class GgxNdf {
         return {wm, pdf(wm)};
     }
 
-    [[nodiscard]] T pdf(const Point& wm) const noexcept { return ggx_.D(wm) * wm.z; }
+    [[nodiscard]] T pdf(const Point& wm) const noexcept { return density_or_zero(ggx_.D(wm) * wm.z); }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& wm) const noexcept {
         const T x = wm.x / ggx_.alpha().x, y = wm.y / ggx_.alpha().y;

@@ -18,7 +18,7 @@ class PerfectReflection {
     constexpr explicit PerfectReflection(const Direction<T>& wo) noexcept : wo_{wo} {}
 
     [[nodiscard]] constexpr Sample<Point, T> sample(glm::vec<2, T>) const noexcept {
-        if (!(wo_.z > 0)) return {};
+        if (!(wo_.z > 0 && all_finite(wo_))) return {};
         return {{-wo_.x, -wo_.y, wo_.z}, T(1)};
     }
 

@@ -6,8 +6,6 @@
 
 #include <glm/geometric.hpp>
 
-#include <limits>
-
 namespace lumis {
 
 template <std::floating_point T = float>
@@ -22,9 +20,9 @@ class PointLight {
     PointLight(const glm::vec<3, T>& position, const glm::vec<3, T>& reference_point) noexcept
         : distance_{glm::length(position - reference_point)}, direction_{(position - reference_point) / distance_} {}
 
-    // At distance 0 nothing is drawn.
+    // At distance 0, and one whose square is out of range, nothing is drawn.
     [[nodiscard]] LightSample<Point, T> sample(glm::vec<2, T>) const noexcept {
-        if (!(distance_ > 0 && distance_ <= std::numeric_limits<T>::max())) return {};
+        if (!is_squared_length(distance_ * distance_)) return {};
         return {direction_, T(1), distance_};
     }
 

@@ -20,18 +20,23 @@ namespace lumis {
 template <std::floating_point T>
 class SphereView {
   public:
-    // A sphere whose radius is not positive, or a number out of range, subtends nothing.
+    // A sphere whose radius is not positive, or a number out of range, subtends nothing; nor does one from its own surface,
+    // to which the distance is 0.
     SphereView(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point) noexcept
         : center_{sphere.center - reference_point},
           radius_{sphere.radius},
           distance_{glm::length(center_)},
-          inside_{distance_ < radius_},
-          axis_{distance_ > 0 ? Frame<T>{center_ / distance_} : Frame<T>{Direction<T>{0, 0, 1}}} {
+          tangent_squared_{power_of(center_, radius_)},
+          inside_{tangent_squared_ < 0},
+          axis_{is_squared_length(distance_ * distance_) ? Frame<T>{center_ / distance_}
+                                                         : Frame<T>{Direction<T>{0, 0, 1}}} {
         const T sine = radius_ / distance_;
-        const T cosine = std::sqrt(tangent_squared()) / distance_;
+        const T cosine = std::sqrt(tangent_squared_) / distance_;
         versine_ = inside_ ? T(2) : sine * sine / (1 + cosine);
         chord_ = std::sqrt(2 * versine_) + 8 * std::numeric_limits<T>::epsilon();
-        if (!(radius_ > 0 && radius_ <= std::numeric_limits<T>::max())) versine_ = radius_ = 0;
+        const bool has_axis = inside_ || is_squared_length(distance_ * distance_);
+        const bool touches = tangent_squared_ == 0;
+        if (!(has_axis && !touches && radius_ > 0 && radius_ <= std::numeric_limits<T>::max())) versine_ = radius_ = 0;
     }
 
     [[nodiscard]] T area() const noexcept { return 4 * std::numbers::pi_v<T> * radius_ * radius_; }
@@ -80,8 +85,13 @@ class SphereView {
     }
 
   private:
-    // Squared length of the tangent from the reference point to the sphere.
-    [[nodiscard]] T tangent_squared() const noexcept { return (distance_ - radius_) * (distance_ + radius_); }
+    // Squared length of the tangent from the origin to the sphere; negative inside. In double: just above the surface the
+    // rounding of a float distance is as large as the height.
+    static T power_of(const glm::vec<3, T>& center, T radius) noexcept {
+        const glm::dvec3 c{center};
+        const double distance = glm::length(c), r = radius;
+        return static_cast<T>((distance - r) * (distance + r));
+    }
 
     // Half the length of the chord that a line cuts out of the sphere when it passes its centre at a distance `across`.
     [[nodiscard]] T half_chord_at(T across) const noexcept {
@@ -92,12 +102,13 @@ class SphereView {
     // `across` aside. From outside, along - half chord would cancel; the product of both roots does not.
     [[nodiscard]] T distance_along(T along, T across) const noexcept {
         const T far_root = along + half_chord_at(across);
-        return inside_ ? far_root : tangent_squared() / far_root;
+        return inside_ ? far_root : tangent_squared_ / far_root;
     }
 
     glm::vec<3, T> center_;  // relative to the reference point
     T radius_;
-    T distance_;  // to the centre
+    T distance_;         // to the centre
+    T tangent_squared_;  // of the tangent's length
     bool inside_;
     Frame<T> axis_;  // its normal points at the centre
     T versine_;      // 1 - cos of the half-angle subtended; 2 from inside

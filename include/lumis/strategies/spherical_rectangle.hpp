@@ -34,7 +34,14 @@ class SphericalRectangle {
         b1_ = far_.y / length(far_.y, near_.z);
         k_ = 2 * std::numbers::pi_v<T> - angle(near_.x * far_.y, near_.x, far_.y) -
              angle(-near_.x * near_.y, near_.x, near_.y);
+        // Of a large rectangle the sum of angles keeps its digits, and a caller's sum of triangles does not where their
+        // common edge passes close by the reference point.
+        if (solid_angle_ > 1) {
+            solid_angle_ = angle(near_.y * far_.x, far_.x, near_.y) + angle(-far_.x * far_.y, far_.x, far_.y) - k_;
+        }
     }
+
+    [[nodiscard]] T solid_angle() const noexcept { return solid_angle_; }
 
     // Relative to the reference point, on the rectangle. u.x goes along the first edge, u.y along the second.
     [[nodiscard]] glm::vec<3, T> sample(glm::vec<2, T> u) const noexcept {

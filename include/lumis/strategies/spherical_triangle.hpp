@@ -31,15 +31,26 @@ class SphericalTriangle {
         // The direction of the arc from b to c at b.
         const glm::vec<3, T> along = chord_bc + b_ * (glm::dot(chord_bc, chord_bc) / 2);
         tangent_ = along / glm::length(along);
-        // 1 + a.b + b.c + c.a, with each cosine 1 less half a squared chord.
-        const T sum_of_cosines =
-            4 - (glm::dot(ab_, ab_) + glm::dot(chord_bc, chord_bc) + glm::dot(chord_ac, chord_ac)) / 2;
+        // 1 + a.b, from the sum: of vertices nearly opposite to each other, a chord's square leaves no digit of it.
+        const glm::vec<3, T> sum = a_ + b_;
+        g1_ = glm::dot(sum, sum) / 2;
+        // 1 + a.b + b.c + c.a, with each other cosine 1 less half a squared chord.
+        const T sum_of_cosines = g1_ + 2 - (glm::dot(chord_bc, chord_bc) + glm::dot(chord_ac, chord_ac)) / 2;
         solid_angle_ = 2 * std::atan2(std::abs(glm::dot(a_, glm::cross(ab_, chord_ac))), sum_of_cosines);
-        g0_ = std::abs(glm::dot(a_, glm::cross(ab_, tangent_)));
-        g1_ = 2 - glm::dot(ab_, ab_) / 2;
+        // At a vertex, or so near that in units of the edges its square is out of range.
+        if (!(is_squared_length(glm::dot(a, a)) && is_squared_length(glm::dot(b, b)) &&
+              is_squared_length(glm::dot(c, c)))) {
+            solid_angle_ = 0;
+        }
+        const T det = glm::dot(a_, glm::cross(ab_, tangent_));
+        side_ = std::copysign(T(1), -det);
+        g0_ = std::abs(det);
         g2_ = -glm::dot(ab_, tangent_);
+        const T half_sine = glm::length(chord_bc) / 2;
+        half_bc_ = {std::sqrt(std::max((1 - half_sine) * (1 + half_sine), T(0))), half_sine};
     }
 
+    // 0 from a vertex.
     [[nodiscard]] T solid_angle() const noexcept { return solid_angle_; }
 
     // u.x cuts off a share of the solid angle by an arc from a to the edge bc; u.y goes along that arc.
@@ -47,31 +58,41 @@ class SphericalTriangle {
         const T half = u.x * solid_angle_ / 2;
         const T sine = std::sin(half), cosine = std::cos(half);
         // q on the arc bc such that the triangle a, b, q has the wanted solid angle; t: tan of half the angle from b.
-        const T t = sine * g1_ / (cosine * g0_ - sine * g2_);
-        const glm::vec<3, T> aq = to(t);
+        const glm::vec<3, T> aq = to(up_to_c(sine * g1_, cosine * g0_ - sine * g2_));
         // From a towards q: 1 - cos is uniform.
-        const T full = glm::dot(aq, aq) / 2;
+        const T full = std::min(glm::dot(aq, aq) / 2, T(2));
         const T part = u.y * full;
         glm::vec<3, T> across = aq + a_ * full;
-        across -= a_ * glm::dot(a_, across);  // once more, for q nearly opposite to a
+        across -= a_ * glm::dot(a_, across);  // once more, for q nearly opposite to a,
+        across -= a_ * glm::dot(a_, across);  // and again, for what is left of it then
         const T length = glm::length(across);
-        if (!(length > 0)) return a_;
-        return a_ * (1 - part) + across * (sine_of_versine(part) / length);
+        if (!is_squared_length(length * length)) return a_;
+        if (part <= 1) return a_ * (1 - part) + across * (sine_of_versine(part) / length);
+        // In terms of 1 + cos: for q nearly opposite to a, 2 - part has no digits.
+        const glm::vec<3, T> sum = aq + T(2) * a_;
+        const T rest = glm::dot(sum, sum) / 2 + (1 - u.y) * full;
+        return a_ * (rest - 1) + across * (sine_of_versine(rest) / length);
     }
 
     [[nodiscard]] glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
         const glm::vec<3, T> aw = w - a_;
         const glm::vec<3, T> normal = glm::cross(a_, aw);  // of the arc from a through w, which meets the arc bc at q
-        // (cos b + sin tangent).normal == 0, with the sine positive.
-        const T across = glm::dot(normal, ab_);
-        const T sine = std::abs(across), cosine = across > 0 ? -glm::dot(normal, tangent_) : glm::dot(normal, tangent_);
+        // (cos b + sin tangent).normal == 0, on the side of the triangle: for w rounded across the edge ab the sine is
+        // negative.
+        const T sine = side_ * glm::dot(normal, ab_), cosine = -side_ * glm::dot(normal, tangent_);
         const T length = std::sqrt(sine * sine + cosine * cosine);
         if (!(length > 0)) return {T(0), T(0)};
         const T t = sine / (length + cosine);
-        return {2 * std::atan2(t * g0_, g1_ + t * g2_) / solid_angle_, glm::dot(aw, aw) / glm::dot(to(t), to(t))};
+        const T cut_off = 2 * std::atan2(t * g0_, g1_ + t * g2_);
+        return {std::max(cut_off / solid_angle_, T(0)), glm::dot(aw, aw) / glm::dot(to(t), to(t))};
     }
 
   private:
+    // sine / cosine, a tangent of half an angle from b, but not beyond c, whither rounding may lead.
+    [[nodiscard]] T up_to_c(T sine, T cosine) const noexcept {
+        return sine * half_bc_.x < cosine * half_bc_.y ? sine / cosine : half_bc_.y / half_bc_.x;
+    }
+
     // From a to the point of the arc bc at an angle from b, given the tangent of half that angle.
     [[nodiscard]] glm::vec<3, T> to(T t) const noexcept {
         const T versine = 2 * t * t / (1 + t * t);
@@ -89,7 +110,9 @@ class SphericalTriangle {
     glm::vec<3, T> ab_;       // b_ - a_
     glm::vec<3, T> tangent_;  // unit, of the arc from b to c at b
     T solid_angle_;
-    T g0_, g1_, g2_;  // det(a, b, tangent), 1 + a.b, a.tangent
+    T side_;                  // -1 if a, b, c run counterclockwise as seen from the reference point, else 1
+    T g0_, g1_, g2_;          // det(a, b, tangent), 1 + a.b, a.tangent
+    glm::vec<2, T> half_bc_;  // cosine and sine of half the arc from b to c
 };
 
 }  // namespace lumis

@@ -3,6 +3,7 @@
 
 #include "lumis/core/strategy.hpp"
 #include "lumis/core/uniforms.hpp"
+#include "lumis/testing/points.hpp"
 #include "lumis/testing/result.hpp"
 
 #include <glm/geometric.hpp>
@@ -58,43 +59,35 @@ void for_each_corner(Visit visit) {
     }
 }
 
-template <std::floating_point T>
-[[nodiscard]] bool is_finite(T x) noexcept {
-    return std::isfinite(x);
-}
-template <int N, class T, glm::qualifier Q>
-[[nodiscard]] bool is_finite(const glm::vec<N, T, Q>& v) noexcept {
-    for (int i = 0; i < N; ++i) {
-        if (!std::isfinite(v[i])) return false;
-    }
-    return true;
-}
-
-// The lowest and highest density at a point and at its neighbours, `step` away along every axis and diagonal; NaN if
-// one of them is NaN or negative.
-template <Strategy S>
-[[nodiscard]] auto density_range(const S& strategy, const typename S::Point& x, typename S::Scalar step) {
-    using Scalar = typename S::Scalar;
-    const Scalar here = strategy.pdf(x);
-    std::pair<Scalar, Scalar> range{here, here};
-    const auto extend = [&](const typename S::Point& neighbour) {
-        const Scalar density = strategy.pdf(neighbour);
-        if (!(density >= 0)) range.first = range.second = std::numeric_limits<Scalar>::quiet_NaN();
-        range = {std::min(range.first, density), std::max(range.second, density)};
-    };
-    if constexpr (std::floating_point<typename S::Point>) {
-        extend(x + step);
-        extend(x - step);
+// Calls visit with the neighbours of a point, `step` away along every axis and diagonal; an index has none.
+template <class Point, std::floating_point T, class Visit>
+void for_each_neighbour(const Point& x, T step, Visit visit) {
+    if constexpr (std::floating_point<Point>) {
+        visit(x + step);
+        visit(x - step);
     } else if constexpr (requires { x.length(); }) {
         std::size_t number = 1;
         for (int i = 0; i < x.length(); ++i) number *= 3;
         for (std::size_t n = 0; n < number; ++n) {
             auto neighbour = x;
             std::size_t rest = n;
-            for (int i = 0; i < x.length(); ++i, rest /= 3) neighbour[i] += step * (Scalar(rest % 3) - 1);
-            extend(neighbour);
+            for (int i = 0; i < x.length(); ++i, rest /= 3) neighbour[i] += step * (T(rest % 3) - 1);
+            visit(neighbour);
         }
     }
+}
+
+// The lowest and highest density at a point and at its neighbours; NaN if one of them is NaN or negative.
+template <Strategy S>
+[[nodiscard]] auto density_range(const S& strategy, const typename S::Point& x, typename S::Scalar step) {
+    using Scalar = typename S::Scalar;
+    const Scalar here = strategy.pdf(x);
+    std::pair<Scalar, Scalar> range{here, here};
+    for_each_neighbour(x, step, [&](const typename S::Point& neighbour) {
+        const Scalar density = strategy.pdf(neighbour);
+        if (!(density >= 0)) range.first = range.second = std::numeric_limits<Scalar>::quiet_NaN();
+        range = {std::min(range.first, density), std::max(range.second, density)};
+    });
     return range;
 }
 

@@ -16,9 +16,11 @@ namespace lumis::testing {
 template <class Point>
 class Cells {
   public:
-    // At least s_cells x t_cells of them; none crosses one of the chart's edges.
+    // At least s_cells x t_cells of them, along axes where points vary; none crosses one of the chart's edges.
     Cells(Chart<Point> chart, std::size_t s_cells, std::size_t t_cells)
-        : chart_{std::move(chart)}, s_{divided(chart_.s_edges, s_cells)}, t_{divided(chart_.t_edges, t_cells)} {}
+        : chart_{std::move(chart)},
+          s_{divided(chart_.s_edges, chart_.dimensions > 0 ? s_cells : 1)},
+          t_{divided(chart_.t_edges, chart_.dimensions > 1 ? t_cells : 1)} {}
 
     [[nodiscard]] std::size_t size() const noexcept { return (s_.size() - 1) * (t_.size() - 1); }
 

@@ -5,12 +5,15 @@
 #include "lumis/core/frame.hpp"
 #include "lumis/core/sample.hpp"
 #include "lumis/core/strategy.hpp"
+#include "lumis/testing/points.hpp"
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <type_traits>
 #include <utility>
@@ -28,9 +31,22 @@ struct Chart {
     std::function<glm::dvec2(const Point&)> coordinates;  // the inverse, in [0, 1]^2
     // Lines of the square across which a density may jump. Other edges of the support are searched for along s.
     std::vector<double> s_edges{0, 1}, t_edges{0, 1};
+    // Along how many of the square's axes the points vary between two edges; histograms divide no others.
+    int dimensions = 2;
 };
 
 using DirectionChart = Chart<glm::dvec3>;
+
+namespace detail {
+
+// The edges of n equal cells of [0, 1].
+[[nodiscard]] inline std::vector<double> equal_cells(std::size_t n) {
+    std::vector<double> edges;
+    for (std::size_t i = 0; i <= n; ++i) edges.push_back(static_cast<double>(i) / static_cast<double>(n));
+    return edges;
+}
+
+}  // namespace detail
 
 // All directions, about the frame's normal: half of the square holds those within the widths (chords, that is about
 // radians) along the frame's tangent and bitangent. In r = |w - normal| the sphere's area is r dr dphi. Along each
@@ -111,14 +127,47 @@ using DirectionChart = Chart<glm::dvec3>;
         return {std::sin(half_theta) * std::sin(half_theta), t < 1 ? t : 0};
     };
     chart.s_edges.clear();
-    chart.t_edges.clear();
     for (std::size_t y = 0; y <= height; ++y) {
         const double sine = std::sin(std::numbers::pi / 2 * static_cast<double>(y) / static_cast<double>(height));
         chart.s_edges.push_back(y == height ? 1.0 : sine * sine);
     }
-    for (std::size_t x = 0; x <= width; ++x) {
-        chart.t_edges.push_back(static_cast<double>(x) / static_cast<double>(width));
-    }
+    chart.t_edges = detail::equal_cells(width);
+    return chart;
+}
+
+// [0, 1] along s, with edges along n equal cells; t is idle.
+[[nodiscard]] inline Chart<double> interval_chart(std::size_t n) {
+    Chart<double> chart;
+    chart.at = [](double s, double) -> Chart<double>::Place { return {s, 1}; };
+    chart.coordinates = [](double x) -> glm::dvec2 { return {x, 0.5}; };
+    chart.s_edges = detail::equal_cells(n);
+    chart.dimensions = 1;
+    return chart;
+}
+
+// [0, 1]^2, with edges along width x height equal cells: x is t and y is s.
+[[nodiscard]] inline Chart<glm::dvec2> square_chart(std::size_t width, std::size_t height) {
+    Chart<glm::dvec2> chart;
+    chart.at = [](double s, double t) -> Chart<glm::dvec2>::Place { return {{t, s}, 1}; };
+    chart.coordinates = [](const glm::dvec2& x) -> glm::dvec2 { return {x.y, x.x}; };
+    chart.s_edges = detail::equal_cells(height);
+    chart.t_edges = detail::equal_cells(width);
+    return chart;
+}
+
+// The indices below n, each of which has its part of s; t is idle.
+[[nodiscard]] inline Chart<std::size_t> index_chart(std::size_t n) {
+    const double size = static_cast<double>(n);
+    Chart<std::size_t> chart;
+    chart.at = [n, size](double s, double) -> Chart<std::size_t>::Place {
+        return {std::min(static_cast<std::size_t>(s * size), n - 1), size};
+    };
+    // An index beyond n lands in no part.
+    chart.coordinates = [n, size](std::size_t i) -> glm::dvec2 {
+        return {i < n ? (static_cast<double>(i) + 0.5) / size : std::numeric_limits<double>::quiet_NaN(), 0.5};
+    };
+    chart.s_edges = detail::equal_cells(n);
+    chart.dimensions = 0;
     return chart;
 }
 
@@ -127,9 +176,11 @@ template <class Point>
 using Density = std::function<double(const Point&)>;
 
 // The density of a strategy, asked in its own precision. The strategy must outlive it.
-template <class Point = glm::dvec3, Strategy S>
-[[nodiscard]] Density<Point> density_of(const S& strategy) {
-    return [&strategy](const Point& x) { return static_cast<double>(strategy.pdf(static_cast<typename S::Point>(x))); };
+template <Strategy S>
+[[nodiscard]] auto density_of(const S& strategy) {
+    using Point = InDouble<typename S::Point>;
+    return Density<Point>{
+        [&strategy](const Point& x) { return static_cast<double>(strategy.pdf(static_cast<typename S::Point>(x))); }};
 }
 
 }  // namespace lumis::testing

@@ -127,10 +127,10 @@ template <Strategy S, class Point>
 }
 
 // The chart should be dense where the density is.
-template <Strategy S, class Point = glm::dvec3>
+template <Strategy S, class Point = InDouble<typename S::Point>>
 [[nodiscard]] LawResult chi_square(const S& strategy, const Chart<Point>& chart = sphere_chart(),
                                    const ChiSquareOptions& options = {}) {
-    return chi_square(strategy, expectation(density_of<Point>(strategy), chart), options);
+    return chi_square(strategy, expectation(density_of(strategy), chart), options);
 }
 
 }  // namespace lumis::testing

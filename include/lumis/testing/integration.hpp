@@ -33,14 +33,13 @@ struct IntegrationOptions {
 
 // The chart should be dense where the density is. number: the difference between integral and probability; where the
 // probability is counted, what the law allows is the tolerance and the count's own confidence interval.
-template <Strategy S, class Point = glm::dvec3>
+template <Strategy S, class Point = InDouble<typename S::Point>>
 [[nodiscard]] LawResult integrates(const S& strategy, const Chart<Point>& chart = sphere_chart(),
                                    const IntegrationOptions& options = {}) {
     using Scalar = typename S::Scalar;
     const double tolerance = options.tolerance.value_or(integration_tolerance<Scalar>);
     constexpr std::size_t lines = 8;
-    const double integral =
-        Cells<Point>{chart, lines, lines}.mass(density_of<Point>(strategy), {tolerance / (4 * lines)});
+    const double integral = Cells<Point>{chart, lines, lines}.mass(density_of(strategy), {tolerance / (4 * lines)});
 
     double probability = options.probability.value_or(0), allowed = tolerance;
     if (!options.probability) {

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <sstream>
 #include <string>
+#include <type_traits>
 
 namespace lumis::testing {
 
@@ -35,7 +36,9 @@ struct Significance {
 
 namespace detail {
 
-inline void write(std::ostream& out, double x) {
+template <class T>
+    requires std::is_arithmetic_v<T>
+void write(std::ostream& out, T x) {
     out << x;
 }
 template <int N, class T, glm::qualifier Q>

@@ -1,13 +1,17 @@
-// The laws of numbers that misbehave: whatever a strategy was made of, what it answers is finite and not negative.
+// The laws of numbers that misbehave: whatever a strategy was made of, what it answers is finite and not negative, and
+// in float it is not far from what it is in double.
 #pragma once
 
 #include "lumis/core/strategy.hpp"
 #include "lumis/core/uniforms.hpp"
 #include "lumis/testing/agreement.hpp"
+#include "lumis/testing/points.hpp"
 #include "lumis/testing/result.hpp"
 
 #include <array>
-#include <cstdint>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
 #include <limits>
 #include <random>
 
@@ -28,13 +32,24 @@ inline constexpr std::array<T, 10> odd_components{T(0),
                                                   -std::numeric_limits<T>::infinity(),
                                                   std::numeric_limits<T>::quiet_NaN()};
 
-// Calls visit(x) for all points made of them.
-template <class T, class Visit>
+// Calls visit(x) for all points made of them; indices: some small ones and the largest.
+template <class Point, class Visit>
 void for_each_odd_point(Visit visit) {
-    constexpr auto& odd = odd_components<T>;
-    for (const T x : odd) {
-        for (const T y : odd) {
-            for (const T z : odd) visit(glm::vec<3, T>{x, y, z});
+    if constexpr (std::integral<Point>) {
+        for (Point i = 0; i < 100; ++i) visit(i);
+        visit(std::numeric_limits<Point>::max());
+    } else if constexpr (std::floating_point<Point>) {
+        for (const Point x : odd_components<Point>) visit(x);
+    } else {
+        using Scalar = typename Point::value_type;
+        constexpr auto& odd = odd_components<Scalar>;
+        std::size_t number = 1;
+        for (int i = 0; i < Point::length(); ++i) number *= odd.size();
+        for (std::size_t n = 0; n < number; ++n) {
+            Point x;
+            std::size_t rest = n;
+            for (int i = 0; i < Point::length(); ++i, rest /= odd.size()) x[i] = odd[rest % odd.size()];
+            visit(x);
         }
     }
 }
@@ -71,8 +86,8 @@ template <Strategy S>
         check(is_density(strategy.pdf(sample.value)), "pdf is ", double{strategy.pdf(sample.value)}, " at ",
               sample.value);
     });
-    detail::for_each_odd_point<Scalar>([&](const glm::vec<3, Scalar>& w) {
-        check(is_density(strategy.pdf(w)), "pdf is ", double{strategy.pdf(w)}, " at ", w);
+    detail::for_each_odd_point<typename S::Point>([&](const typename S::Point& x) {
+        check(is_density(strategy.pdf(x)), "pdf is ", double{strategy.pdf(x)}, " at ", x);
     });
     return result;
 }
@@ -93,6 +108,78 @@ template <Strategy S>
         check(double{sample.pdf}, u);
         check(double{strategy.pdf(sample.value)}, sample.value);
     });
+    return result;
+}
+
+struct NearnessOptions {
+    double value = 1e-5;   // how far points may lie apart
+    double pdf = 1e-3;     // how far densities may, relative to the larger
+    double undecided = 0;  // the share of uniforms at which one draws and the other may not
+    int samples = 1000;    // at random uniforms, after all combinations of corner values
+};
+
+// At the same uniforms, corners and random ones, a strategy in float draws nearly what the same one in double draws.
+// Both should be made of the same numbers, rounded to float. number: the worst relative distance between densities.
+template <Strategy InFloat, Strategy InDouble>
+    requires std::same_as<typename InFloat::Scalar, float> && std::same_as<typename InDouble::Scalar, double>
+[[nodiscard]] LawResult stays_near(const InFloat& in_float, const InDouble& in_double,
+                                   const NearnessOptions& options = {}) {
+    LawResult result{true, 0, {}};
+    double worst_value = 0;
+    int draws = 0, undecided = 0;
+    const auto fail = [&](const auto&... what) {
+        if (result.passed) result.message = detail::text(what...);
+        result.passed = false;
+    };
+    detail::for_each_draw(in_float, options.samples, [&](const auto& u, const auto& sample) {
+        ++draws;
+        const auto exact = in_double.sample(UniformsOf<InDouble>(u));
+        const double a = sample.pdf, b = exact.pdf;
+        if ((a > 0) != (b > 0)) {
+            ++undecided;
+            return;
+        }
+        if (a == 0 && b == 0) return;
+        const double value = detail::distance<typename InDouble::Point>(
+            static_cast<typename InDouble::Point>(sample.value), exact.value);
+        const double pdf = std::abs(a - b) / std::fmax(a, b);
+        if (!(value <= worst_value)) worst_value = value;
+        if (!(pdf <= result.number)) result.number = pdf;
+        if (!(value <= options.value)) fail("drew ", sample.value, ", in double ", exact.value, " at u = ", u);
+        if (!(pdf <= options.pdf)) fail("density ", a, ", in double ", b, " at u = ", u);
+    });
+    if (!(undecided <= options.undecided * draws)) {
+        fail("drew or not otherwise than in double at ", undecided, " of ", draws, " uniforms");
+    }
+    if (result.passed) result.message = detail::text("values agree to ", worst_value, ", densities to ", result.number);
+    return result;
+}
+
+// A sweep: make.operator()<T>(parameter) yields the strategy in T. In float and in double each stays finite, and float
+// stays near double. Parameters should be numbers that a float holds. number: the worst relative distance between
+// densities. The message tells which parameter, by its place in the range, failed first.
+template <class Parameters, class Make>
+[[nodiscard]] LawResult stability(const Parameters& parameters, const Make& make, const NearnessOptions& options = {}) {
+    LawResult result{true, 0, {}};
+    std::size_t place = 0;
+    for (const auto& parameter : parameters) {
+        const auto in_float = make.template operator()<float>(parameter);
+        const auto in_double = make.template operator()<double>(parameter);
+        const auto check = [&](const LawResult& law, const char* what) {
+            if (law.passed) return;
+            if (result.passed) result.message = detail::text("parameter ", place, what) + law.message;
+            result.passed = false;
+        };
+        check(stays_finite(in_float, options.samples), " in float: ");
+        check(stays_finite(in_double, options.samples), " in double: ");
+        const auto near = stays_near(in_float, in_double, options);
+        check(near, ": ");
+        if (!(near.number <= result.number)) result.number = near.number;
+        ++place;
+    }
+    if (result.passed) {
+        result.message = detail::text(place, " parameters: all finite, densities agree to ", result.number);
+    }
     return result;
 }
 

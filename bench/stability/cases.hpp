@@ -1,0 +1,89 @@
+// The cases: each sweeps one class of input over decades and answers what it met. T is float or double.
+#pragma once
+
+#include "measured.hpp"
+
+namespace stability {
+
+template <class T>
+Measured uniforms_below_one(Effort effort);
+template <class T>
+Measured alias_table(Effort effort);
+template <class T>
+Measured piecewise_constant(Effort effort);
+template <class T>
+Measured huge_tables(Effort effort);
+template <class T>
+Measured hemispheres(Effort effort);
+template <class T>
+Measured ggx_terms(Effort effort);
+template <class T>
+Measured ggx_normals(Effort effort);
+template <class T>
+Measured ggx_visible_normals(Effort effort);
+template <class T>
+Measured ggx_reflection(Effort effort);
+template <class T>
+Measured ggx_bounded_reflection(Effort effort);
+template <class T>
+Measured ggx_nothing_to_draw(Effort effort);
+template <class T>
+Measured ggx_albedo(Effort effort);
+template <class T>
+Measured mirror_against_small_light(Effort effort);
+template <class T>
+Measured sphere_cone(Effort effort);
+template <class T>
+Measured sphere_near_surface(Effort effort);
+template <class T>
+Measured sphere_far_away(Effort effort);
+template <class T>
+Measured sphere_inside(Effort effort);
+template <class T>
+Measured sphere_irradiance(Effort effort);
+template <class T>
+Measured flat_slivers(Effort effort);
+template <class T>
+Measured flat_scales(Effort effort);
+template <class T>
+Measured flat_edge_on(Effort effort);
+template <class T>
+Measured flat_nothing_to_draw(Effort effort);
+template <class T>
+Measured flat_far_from_origin(Effort effort);
+template <class T>
+Measured spherical_triangle(Effort effort);
+template <class T>
+Measured spherical_rectangle(Effort effort);
+template <class T>
+Measured environment_shapes(Effort effort);
+template <class T>
+Measured environment_compensation(Effort effort);
+template <class T>
+Measured environment_1k(Effort effort);
+template <class T>
+Measured environment_4k(Effort effort);
+template <class T>
+Measured environment_8k(Effort effort);
+template <class T>
+Measured environment_bad_texels(Effort effort);
+template <class T>
+Measured mis_weights(Effort effort);
+template <class T>
+Measured mis_weights_of_many(Effort effort);
+template <class T>
+Measured mis_weights_policy(Effort effort);
+template <class T>
+Measured delta_strategies(Effort effort);
+template <class T>
+Measured mixtures(Effort effort);
+template <class T>
+Measured light_sets(Effort effort);
+template <class T>
+Measured accumulation_of_many(Effort effort);
+template <class T>
+Measured accumulation_with_offset(Effort effort);
+template <class T>
+Measured accumulation_not_finite(Effort effort);
+
+}  // namespace stability

@@ -1,0 +1,278 @@
+// Runs every kernel at the edges of its domain, and says how wrong it is there at worst.
+#include "cases.hpp"
+#include "row.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <ctime>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <vector>
+
+namespace {
+
+using namespace stability;
+
+struct InScalar {
+    Measured (*run)(Effort);
+    double error_limit;
+};
+
+struct Case {
+    const char* kernel;
+    const char* swept;
+    const char* reference;
+    InScalar in_float, in_double;
+};
+
+// An error limit of 0 means exactly, or that the case measures none.
+const Case cases[] = {
+    {"uniforms",
+     "engines of 16 to 64 bits, all bits set; hosts that return 1",
+     "1/2",
+     {uniforms_below_one<float>, 0},
+     {uniforms_below_one<double>, 0}},
+    {"AliasTable",
+     "weights {1, 1e-8, 1}, 10 decades, zeros, the largest number; all 2^24 float uniforms",
+     "its own sum and frequencies",
+     {alias_table<float>, 0},
+     {alias_table<double>, 0}},
+    {"PiecewiseConstant1D",
+     "the same weights",
+     "its own sum and frequencies",
+     {piecewise_constant<float>, 1e-6},
+     {piecewise_constant<double>, 5e-15}},
+    {"tables of 1e7",
+     "both tables, a third of the weights 0",
+     "sum of 1",
+     {huge_tables<float>, 1e-12},
+     {huge_tables<double>, 1e-12}},
+    {"hemispheres",
+     "uniforms at all corners; below the horizon",
+     "quad",
+     {hemispheres<float>, 1e-6},
+     {hemispheres<double>, 5e-15}},
+    {"Ggx",
+     "D, Lambda, G1, G2: alpha 1e-6 to 1e4, an axis 0, cosines to 1e-6",
+     "quad",
+     {ggx_terms<float>, 1e-6},
+     {ggx_terms<double>, 5e-15}},
+    {"GgxNdf", "alpha 1e-6 to 1e4, an axis 0", "quad", {ggx_normals<float>, 1e-6}, {ggx_normals<double>, 5e-15}},
+    {"GgxVndf",
+     "the same, cosines of wo from 1 to 1e-6, where wo.wm cancels",
+     "quad",
+     {ggx_visible_normals<float>, 5e-5},
+     {ggx_visible_normals<double>, 1e-12}},
+    {"GgxReflection", "the same", "quad", {ggx_reflection<float>, 1e-6}, {ggx_reflection<double>, 5e-15}},
+    {"GgxBoundedReflection",
+     "the same",
+     "quad",
+     {ggx_bounded_reflection<float>, 1e-6},
+     {ggx_bounded_reflection<double>, 5e-15}},
+    {"GGX, nothing to draw",
+     "wo on and below the horizon, NaN; alpha negative, too large, NaN",
+     "",
+     {ggx_nothing_to_draw<float>, 0},
+     {ggx_nothing_to_draw<double>, 0}},
+    {"GGX albedo",
+     "cosines from 1 to 1e-6 at alpha 1; what falls below the horizon",
+     "",
+     {ggx_albedo<float>, 0},
+     {ggx_albedo<double>, 0}},
+    {"mirror, small light",
+     "alpha 1e-3, light of 1e-4 sr, from centred to beyond the rim; weights sum to 1",
+     "1",
+     {mirror_against_small_light<float>, 1e-6},
+     {mirror_against_small_light<double>, 5e-15}},
+    {"sphere, cone",
+     "half-angle 0.001 to 89 degrees, distance 1e-6 to 1e6",
+     "quad",
+     {sphere_cone<float>, 1e-5},
+     {sphere_cone<double>, 1e-13}},
+    {"sphere, near its surface",
+     "half-angle 89 to 89.99 degrees",
+     "quad",
+     {sphere_near_surface<float>, 1e-5},
+     {sphere_near_surface<double>, 1e-11}},
+    {"sphere, far away",
+     "centre 1e3 to 1e6 radii away, radius 1e-3 to 1e3",
+     "quad",
+     {sphere_far_away<float>, 1e-6},
+     {sphere_far_away<double>, 5e-15}},
+    {"sphere, inside",
+     "centre to surface; radius 0, negative, infinite, NaN",
+     "quad",
+     {sphere_inside<float>, 1e-6},
+     {sphere_inside<double>, 5e-15}},
+    {"sphere, irradiance", "half-angle 1e-5 to 0.5", "", {sphere_irradiance<float>, 0}, {sphere_irradiance<double>, 0}},
+    {"flat lights, slivers",
+     "triangle, parallelogram, disk of width 1e-6 to 1",
+     "quad",
+     {flat_slivers<float>, 1e-5},
+     {flat_slivers<double>, 1e-14}},
+    {"flat lights, scale",
+     "the scene at 1e-12 to 1e12",
+     "quad",
+     {flat_scales<float>, 1e-5},
+     {flat_scales<double>, 1e-14}},
+    {"flat lights, edge-on",
+     "height over the plane 1e-6 to 1; error times sine",
+     "quad",
+     {flat_edge_on<float>, 1e-5},
+     {flat_edge_on<double>, 1e-14}},
+    {"flat lights, nothing",
+     "in the plane, at a vertex, no area, at scales 1e-12 to 1e12",
+     "",
+     {flat_nothing_to_draw<float>, 0},
+     {flat_nothing_to_draw<double>, 0}},
+    {"flat lights, far origin",
+     "vertices at 1 to 1e6",
+     "quad",
+     {flat_far_from_origin<float>, 1e-5},
+     {flat_far_from_origin<double>, 1e-14}},
+    {"spherical triangle",
+     "1e-8 to 6.28 sr",
+     "quad",
+     {spherical_triangle<float>, 1e-5},
+     {spherical_triangle<double>, 1e-14}},
+    {"spherical rectangle",
+     "1e-8 to 6.28 sr, and parallelograms",
+     "quad",
+     {spherical_rectangle<float>, 1e-5},
+     {spherical_rectangle<double>, 1e-14}},
+    {"environment map",
+     "1 x 1, 1 x N, N x 1, black rows, a hot texel or pole row of 1e6, black",
+     "mass of 1",
+     {environment_shapes<float>, 1e-6},
+     {environment_shapes<double>, 1e-14}},
+    {"environment, compensated",
+     "constant maps of 1e-30 to 1e30; a hot texel",
+     "mass of 1",
+     {environment_compensation<float>, 1e-6},
+     {environment_compensation<double>, 1e-14}},
+    {"environment, 1024 x 512",
+     "frequency of each texel in the worst row against its mass",
+     "enumeration",
+     {environment_1k<float>, 0},
+     {environment_1k<double>, 0}},
+    {"environment, 4096 x 2048",
+     "frequency of each texel in the worst row against its mass",
+     "enumeration",
+     {environment_4k<float>, 0},
+     {environment_4k<double>, 0}},
+    {"environment, 8192 x 4096",
+     "frequency of each texel in the worst row against its mass",
+     "enumeration",
+     {environment_8k<float>, 0},
+     {environment_8k<double>, 0}},
+    {"environment, bad texels",
+     "NaN, infinite, negative texels and wrong sizes are refused by name",
+     "",
+     {environment_bad_texels<float>, 0},
+     {environment_bad_texels<double>, 0}},
+    {"MIS weights",
+     "densities 1e-38 to 1e38, counts 1 and 1e6, exponents 1 to 3",
+     "quad",
+     {mis_weights<float>, 1e-6},
+     {mis_weights<double>, 5e-15}},
+    {"MIS weights, many",
+     "3 to 1000 techniques, densities up to 74 decades apart",
+     "quad",
+     {mis_weights_of_many<float>, 1e-5},
+     {mis_weights_of_many<double>, 1e-14}},
+    {"MIS weights, policy",
+     "0 against 0, infinite, NaN; all densities times 2^-100 and 2^100",
+     "unscaled",
+     {mis_weights_policy<float>, 1e-6},
+     {mis_weights_policy<double>, 5e-15}},
+    {"delta strategies",
+     "mirror and lamp, alone, together, beside a smooth lobe; distance 1e-6 to 1e6",
+     "closed form",
+     {delta_strategies<float>, 1e-6},
+     {delta_strategies<double>, 5e-15}},
+    {"mixtures",
+     "selection probability 1e-6 to 1 - 1e-6, GGX alpha 1e-3 to 1; nothing selected",
+     "quad",
+     {mixtures<float>, 1e-6},
+     {mixtures<double>, 5e-15}},
+    {"light sets",
+     "1 to 1e5 lights, half of them dark; none with power",
+     "quad",
+     {light_sets<float>, 1e-5},
+     {light_sets<double>, 1e-14}},
+    {"RunningMoments, many",
+     "5e7 times 0.1, then 5e7 times 0.3",
+     "quad",
+     {accumulation_of_many<float>, 1e-6},
+     {accumulation_of_many<double>, 1e-12}},
+    {"RunningMoments, offset",
+     "mean and variance, offset 1 to 1e6 (float), 1e9 (double); merged",
+     "quad",
+     {accumulation_with_offset<float>, 1e-6},
+     {accumulation_with_offset<double>, 1e-6}},
+    {"RunningMoments, broken",
+     "NaN and infinity in every hundredth sample; one of 1e30",
+     "quad",
+     {accumulation_not_finite<float>, 1e-6},
+     {accumulation_not_finite<double>, 1e-14}},
+};
+
+Row row_of(const Case& what, const char* scalar, const InScalar& in_scalar, Effort effort) {
+    const std::clock_t start = std::clock();
+    const Measured measured = in_scalar.run(effort);
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    return {what.kernel, what.swept, scalar, what.reference, in_scalar.error_limit, measured, seconds};
+}
+
+std::vector<Row> run_cases(Effort effort, const std::string& only, bool show) {
+    std::vector<Row> rows;
+    if (show) print_heading();
+    for (const Case& what : cases) {
+        if (std::string{what.kernel}.find(only) == std::string::npos) continue;
+        for (const auto& [scalar, in_scalar] : {std::pair{"float", what.in_float}, {"double", what.in_double}}) {
+            rows.push_back(row_of(what, scalar, in_scalar, effort));
+            if (show) print(rows.back());
+        }
+    }
+    return rows;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::filesystem::path output;
+    std::string only;
+    bool markdown = false, allow_failures = false;
+    Effort effort;
+    CLI::App app{"Runs every kernel at the edges of its domain. Ends with 1 if a row of the table fails."};
+    app.add_option("--output", output, "Folder for stability.json");
+    app.add_option("--only", only, "Run the kernels whose name contains this");
+    app.add_flag("--markdown", markdown, "Print the table as Markdown");
+    app.add_flag("--allow-failures", allow_failures, "End with 0 even then: for pages that show what failed");
+    app.add_flag("--quick", effort.quick, "Fewer samples, no enumerations: for builds with sanitizers");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    try {
+        const std::vector<Row> rows = run_cases(effort, only, !markdown);
+        if (rows.empty()) {
+            std::cerr << "stability: no kernel is called '" << only << "'\n";
+            return 2;
+        }
+        if (markdown) print_markdown(rows);
+        if (!output.empty()) {
+            std::filesystem::create_directories(output);
+            write_json(output / "stability.json", rows, effort.quick);
+        }
+        const auto failed = std::ranges::count_if(rows, [](const Row& row) { return !row.passed(); });
+        std::cerr << rows.size() << " rows, " << failed << " failed\n";
+        return failed > 0 && !allow_failures ? 1 : 0;
+    } catch (const std::exception& error) {
+        std::cerr << "stability: " << error.what() << '\n';
+        return 1;
+    }
+}

@@ -1,0 +1,85 @@
+// Subjects of the laws: flat lights by the solid angle they subtend, from 1e-8 sr to the hemisphere.
+#pragma once
+
+#include "light_subjects.hpp"
+#include "subject.hpp"
+#include <lumis/lumis.hpp>
+
+#include <limits>
+#include <vector>
+
+namespace subjects {
+
+// Arcs of nearly half a turn, and a sliver's angles, cost the way back some digits.
+inline constexpr lumis::testing::RoundTripOptions few_digits{.tolerance = 2048};
+
+struct TriangleBySolidAngle {
+    template <class T>
+    static auto make() {
+        using V = glm::dvec3;
+        struct Case {
+            const char* label;
+            V a, b, c, reference;
+        };
+        const Case cases[] = {
+            {"above", {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 0}},
+            {"octant", {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}},
+            {"tilted and far", {10, 3, 20}, {12, 3, 19}, {10, 5, 21}, {1, 2, 3}},
+            {"sliver", {-1, 0, 2}, {1, 0, 2}, {1, 0.002, 2}, {0, 0, 0}},
+            {"1e-8 sr", {0.00015, 0, 1}, {0, 0.00015, 1}, {0, 0, 1}, {0, 0, 0}},
+            {"nearly edge-on", {1, 0, 0.01}, {2, 0.5, 0.01}, {1.5, 1, 0.02}, {0, 0, 0}},
+            {"6.28 sr", {4000, 0, 1}, {-2000, 3000, 1}, {-2000, -3000, 1}, {0, 0, 0}},
+        };
+        std::vector<Subject<lumis::AreaLight<lumis::Triangle<T>, lumis::BySolidAngle>>> result;
+        for (const auto& [name, a, b, c, reference] : cases) {
+            const lumis::Triangle<T> triangle{glm::vec<3, T>(a), glm::vec<3, T>(b), glm::vec<3, T>(c)};
+            const auto [chart, blur] = view_of((a + b + c) / 3.0 - reference, (b - a) / 2.0, (c - a) / 2.0);
+            result.push_back({name,
+                              {triangle, glm::vec<3, T>(reference)},
+                              chart,
+                              1.0,
+                              blur * std::numeric_limits<T>::epsilon(),
+                              {},
+                              few_digits});
+        }
+        return result;
+    }
+};
+
+struct ParallelogramBySolidAngle {
+    template <class T>
+    static auto make() {
+        using V = glm::dvec3;
+        struct Case {
+            const char* label;
+            V corner, edge_u, edge_v;
+        };
+        const Case cases[] = {
+            {"square above", {-1, -1, 1}, {2, 0, 0}, {0, 2, 0}},
+            {"rectangle aside", {0.5, 0.2, 1}, {0.6, 0, 0.8}, {0, 0.5, 0}},
+            {"skew", {1, -1, 2}, {2, 0.5, 1}, {-1, 1, 0.3}},
+            {"filling the view", {-1, -1, 0.05}, {2, 0, 0}, {0, 2, 0}},
+            {"strip", {-3, 0.5, 1}, {6, 0, 0}, {0, 0.01, 0}},
+            {"skew strip", {-3, 0.5, 1}, {6, 0, 0.5}, {0.01, 0.01, 0}},
+            {"square of 1e-8 sr", {0.25, 0, 1}, {0.0001, 0, 0}, {0, 0.0001, 0}},
+            {"skew of 1e-8 sr", {0.25, 0, 1}, {0.0001, 0, 0}, {0.00005, 0.0001, 0}},
+            {"square of 6.28 sr", {-2000, -2000, 1}, {4000, 0, 0}, {0, 4000, 0}},
+            {"skew of 6.28 sr", {-3000, -2000, 1}, {4000, 0, 0}, {2000, 4000, 0}},
+        };
+        std::vector<Subject<lumis::AreaLight<lumis::Parallelogram<T>, lumis::BySolidAngle>>> result;
+        for (const auto& [name, corner, edge_u, edge_v] : cases) {
+            const lumis::Parallelogram<T> shape{glm::vec<3, T>(corner), glm::vec<3, T>(edge_u), glm::vec<3, T>(edge_v)};
+            const auto [chart, blur] = view_of(corner + (edge_u + edge_v) / 2.0, edge_u / 2.0, edge_v / 2.0);
+            const lumis::AreaLight<lumis::Parallelogram<T>, lumis::BySolidAngle> light{shape, {}};
+            auto round_trip = few_digits;
+            // Urena's sum of angles, of which small rectangles have few digits; smaller ones are split into triangles.
+            if (light.solid_angle() > 1e5f * std::numeric_limits<T>::epsilon()) {
+                round_trip.tolerance += 2 / static_cast<double>(light.solid_angle());
+            }
+            result.push_back({name, light, chart, 1.0, blur * std::numeric_limits<T>::epsilon(), {}, round_trip});
+        }
+        return result;
+    }
+};
+
+}  // namespace subjects
