@@ -22,9 +22,9 @@ using namespace convergence;
 struct Settings {
     std::filesystem::path output = "report";
     int seeds = 8;
-    double seconds = 0.6;
+    double seconds = 0.5;
     int width = 288;
-    int reference_samples = 192;
+    int reference_samples = 128;
     int threads = oneapi::tbb::info::default_concurrency();
     std::string environment;
 };
@@ -67,7 +67,7 @@ void run(const Settings& settings) {
         finish(render_study(std::string{scene.name}, first_seeds(settings.seeds), render, std::ref(progress)));
     }
     // An integral's error is one number a run, where an image's is a mean over pixels: it takes more, shorter runs.
-    for (Study& study : integral_studies(first_seeds(8 * settings.seeds), settings.seconds / 30, std::ref(progress))) {
+    for (Study& study : integral_studies(first_seeds(8 * settings.seeds), settings.seconds / 50, std::ref(progress))) {
         finish(std::move(study));
     }
     const StiffStudy stiff = stiff_study(2 * settings.seeds, settings.seconds / 200, std::ref(progress));
