@@ -22,7 +22,7 @@ using namespace convergence;
 struct Settings {
     std::filesystem::path output = "report";
     int seeds = 8;
-    double seconds = 0.5;
+    double seconds = 0.4;
     int width = 288;
     int reference_samples = 128;
     int threads = oneapi::tbb::info::default_concurrency();

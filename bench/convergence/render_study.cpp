@@ -40,7 +40,7 @@ class Run {
     double cpu_seconds_ = 0, wall_seconds_ = 0;
 };
 
-// Lone pixels that are shown brighter by half a display's range than the reference and than all their neighbours.
+// Lone pixels shown in white where the reference and all their neighbours are shown in less than half of it.
 int count_fireflies(const Image& image, const Image& reference) {
     const auto shown = [](const Image& from, int x, int y) {
         if (x < 0 || y < 0 || x >= from.width || y >= from.height) return 0.0f;
@@ -54,7 +54,7 @@ int count_fireflies(const Image& image, const Image& reference) {
                  {std::pair{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}) {
                 expected = std::max(expected, shown(image, x + right, y + down));
             }
-            count += shown(image, x, y) - expected > 0.5f;
+            count += shown(image, x, y) == 1 && expected < 0.5f;
         }
     }
     return count;
