@@ -23,7 +23,7 @@ struct Settings {
     std::filesystem::path output = "report";
     int seeds = 8;
     double seconds = 0.4;
-    int width = 288;
+    int width = 240;
     int reference_samples = 128;
     int threads = oneapi::tbb::info::default_concurrency();
     std::string environment;
