@@ -1,5 +1,6 @@
 // Alias tables: each index is drawn exactly as often as its probability says, by every uniform that there is.
 #include "catch.hpp"
+#include "table_weights.hpp"
 #include <lumis/strategies/alias_table.hpp>
 
 #include <chrono>
@@ -16,32 +17,6 @@
 namespace {
 
 template <class T>
-std::vector<T> random_weights(std::size_t size, double decades) {
-    std::mt19937_64 engine{size};
-    std::uniform_real_distribution<double> exponent{-decades, 0};
-    std::vector<T> weights(size);
-    for (auto& weight : weights) weight = static_cast<T>(std::pow(10, exponent(engine)));
-    return weights;
-}
-
-// Weights of every class, zero ones first, last and in between.
-template <class T>
-std::vector<std::vector<T>> classes() {
-    std::vector<std::vector<T>> result{
-        {T(1)},
-        {T(0), T(3), T(0)},
-        {T(1), T(1e-8), T(1)},
-        {T(1), T(2), T(3), T(4), T(0), T(0), T(0)},
-        std::vector<T>(7, T(0.1)),
-        {std::numeric_limits<T>::max(), std::numeric_limits<T>::denorm_min(), T(1)},
-        {std::numeric_limits<T>::max(), std::numeric_limits<T>::max()},
-        {std::numeric_limits<T>::denorm_min(), T(0), std::numeric_limits<T>::denorm_min()},
-        random_weights<T>(1000, 10)};
-    for (std::size_t i = 0; i < 1000; i += 3) result.back()[i] = T(0);
-    return result;
-}
-
-template <class T>
 std::string refusal(const std::vector<T>& weights) {
     try {
         const lumis::AliasTable table{weights};
@@ -54,7 +29,7 @@ std::string refusal(const std::vector<T>& weights) {
 }  // namespace
 
 TEST_CASE("float: an alias table draws as often as it says by all 2^24 uniforms", "[alias_table]") {
-    for (const auto& weights : classes<float>()) {
+    for (const auto& weights : weight_classes<float>()) {
         const lumis::AliasTable table{weights};
         REQUIRE(table.size() == weights.size());
         std::vector<std::uint32_t> drawn(weights.size());
@@ -78,7 +53,7 @@ TEST_CASE("float: an alias table draws as often as it says by all 2^24 uniforms"
 TEMPLATE_TEST_CASE("the probabilities of an alias table sum to 1 and follow the weights", "[alias_table]", float,
                    double) {
     using T = TestType;
-    for (const auto& weights : classes<T>()) {
+    for (const auto& weights : weight_classes<T>()) {
         const lumis::AliasTable table{weights};
         long double sum = 0, total = 0;
         for (const T weight : weights) total += weight;
@@ -99,7 +74,7 @@ TEMPLATE_TEST_CASE("the probabilities of an alias table sum to 1 and follow the 
 
 // All of a bin's runs are met by a uniform of theirs: in double, by stepping through the counts of a small table.
 TEST_CASE("double: an alias table draws as often as it says", "[alias_table]") {
-    for (const auto& weights : classes<double>()) {
+    for (const auto& weights : weight_classes<double>()) {
         if (weights.size() > 10) continue;
         const lumis::AliasTable table{weights};
         const std::size_t n = weights.size();
@@ -128,7 +103,7 @@ TEST_CASE("double: an alias table draws as often as it says", "[alias_table]") {
 
 TEMPLATE_TEST_CASE("an alias table at the ends of the uniforms", "[alias_table]", float, double) {
     using T = TestType;
-    for (const auto& weights : classes<T>()) {
+    for (const auto& weights : weight_classes<T>()) {
         const lumis::AliasTable table{weights};
         for (const T u : {T(0), 1 - std::numeric_limits<T>::epsilon() / 2, T(1)}) {
             const auto sample = table.sample(glm::vec<1, T>{u});

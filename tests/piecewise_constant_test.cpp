@@ -1,5 +1,6 @@
 // Piecewise constant densities: cells are drawn exactly as often as their density says, and evenly within.
 #include "catch.hpp"
+#include "table_weights.hpp"
 #include <lumis/strategies/piecewise_constant.hpp>
 
 #include <algorithm>
@@ -13,28 +14,6 @@
 #include <vector>
 
 namespace {
-
-template <class T>
-std::vector<T> random_weights(std::size_t size, double decades) {
-    std::mt19937_64 engine{size};
-    std::uniform_real_distribution<double> exponent{-decades, 0};
-    std::vector<T> weights(size);
-    for (auto& weight : weights) weight = static_cast<T>(std::pow(10, exponent(engine)));
-    return weights;
-}
-
-template <class T>
-std::vector<std::vector<T>> classes() {
-    std::vector<std::vector<T>> result{
-        {T(1)},
-        {T(0), T(3), T(0)},
-        {T(1), T(1e-8), T(1)},
-        {T(1), T(2), T(3), T(4), T(0), T(0), T(0)},
-        {std::numeric_limits<T>::max(), std::numeric_limits<T>::denorm_min(), std::numeric_limits<T>::max()},
-        random_weights<T>(1000, 10)};
-    for (std::size_t i = 0; i < 1000; i += 3) result.back()[i] = T(0);
-    return result;
-}
 
 // The cell that holds x, told without the library.
 std::size_t cell_of(double x, std::size_t n) {
@@ -59,7 +38,7 @@ glm::vec<1, T> one(T u) {
 }  // namespace
 
 TEST_CASE("float: a piecewise constant density is the frequency drawn by all 2^24 uniforms", "[piecewise_constant]") {
-    for (const auto& weights : classes<float>()) {
+    for (const auto& weights : weight_classes<float>()) {
         const lumis::PiecewiseConstant1D density{weights};
         const std::size_t n = weights.size();
         if (n < 3) continue;
@@ -86,7 +65,7 @@ TEST_CASE("float: a piecewise constant density is the frequency drawn by all 2^2
 TEMPLATE_TEST_CASE("a piecewise constant density integrates to 1 and follows the weights", "[piecewise_constant]",
                    float, double) {
     using T = TestType;
-    for (const auto& weights : classes<T>()) {
+    for (const auto& weights : weight_classes<T>()) {
         const lumis::PiecewiseConstant1D density{weights};
         const std::size_t n = weights.size();
         long double total = 0, sum = 0;
@@ -119,7 +98,7 @@ TEMPLATE_TEST_CASE("a piecewise constant sample leads back to its uniform", "[pi
     const double epsilon = std::numeric_limits<T>::epsilon();
     std::mt19937_64 engine{1};
     std::uniform_real_distribution<double> uniform{0, 1};
-    for (const auto& weights : classes<T>()) {
+    for (const auto& weights : weight_classes<T>()) {
         const lumis::PiecewiseConstant1D density{weights};
         double worst = 0;
         for (int i = 0; i < 2000; ++i) {
