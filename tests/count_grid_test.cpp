@@ -1,22 +1,27 @@
 // Grids of counts: rows and cells by their weights, whatever their magnitude.
 #include "catch.hpp"
+#include <lumis/strategies/alias_rows.hpp>
 #include <lumis/strategies/count_grid.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace {
 
-template <class T>
-lumis::CountGrid<T> grid_of(std::size_t width, const std::vector<double>& weights,
-                            const std::vector<double>& scales = {}) {
-    lumis::CountGrid<T> grid{width, weights.size() / width, weights.size()};
-    grid.deal([&](std::size_t x, std::size_t y) { return weights[y * width + x]; },
-              [&](std::size_t y) { return scales.empty() ? 1.0 : scales[y]; });
+template <class T, template <class> class Rows = lumis::GuidedRows>
+lumis::CountGrid<T, Rows> grid_of(std::size_t width, const std::vector<double>& weights,
+                                  const std::vector<double>& scales = {}) {
+    lumis::CountGrid<T, Rows> grid{width, weights.size() / width, weights.size()};
+    grid.deal(
+        [&](std::size_t y, std::span<double> row) {
+            for (std::size_t x = 0; x < width; ++x) row[x] = weights[y * width + x];
+        },
+        [&](std::size_t y) { return scales.empty() ? 1.0 : scales[y]; }, lumis::InOrder{});
     return grid;
 }
 
@@ -30,8 +35,7 @@ TEMPLATE_TEST_CASE("a grid's rows and cells own every count and none without a w
                                                   {huge, huge, huge, tiny, tiny, tiny},
                                                   {tiny, 0, 0, 0, 0, tiny},
                                                   {0, 0, 0, 0, 0, 0, 1, 1e-8, 1}};
-    for (const auto& weights : tables) {
-        const auto grid = grid_of<T>(3, weights);
+    const auto check = [](const auto& grid, const std::vector<double>& weights) {
         std::uint64_t rows = 0;
         for (std::size_t y = 0; y < grid.height(); ++y) {
             double row_weight = 0;
@@ -48,6 +52,10 @@ TEMPLATE_TEST_CASE("a grid's rows and cells own every count and none without a w
         }
         CHECK(rows == lumis::total_counts<T>);
         CHECK_FALSE(grid.empty());
+    };
+    for (const auto& weights : tables) {
+        check(grid_of<T>(3, weights), weights);
+        check(grid_of<T, lumis::AliasRows>(3, weights), weights);
     }
 }
 
@@ -77,7 +85,7 @@ TEMPLATE_TEST_CASE("a grid finds the cell of a point and the uniforms of a cell"
             const auto drawn = grid.draw({u, v});
             CHECK(grid.cell_counts(drawn.column, drawn.row) > 0);
             CHECK((drawn.position.x > 0 && drawn.position.x < 1 && drawn.position.y > 0 && drawn.position.y < 1));
-            const auto back = grid.invert(drawn);
+            const auto back = grid.invert({drawn.column, drawn.row, drawn.position});
             CHECK(std::abs(double{back.x} - double{u}) <= 64 * double{std::numeric_limits<T>::epsilon()} + 1e-9);
             CHECK(std::abs(double{back.y} - double{v}) <= 64 * double{std::numeric_limits<T>::epsilon()} + 1e-9);
         }

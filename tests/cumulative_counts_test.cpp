@@ -11,7 +11,6 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace {
@@ -19,7 +18,8 @@ namespace {
 template <class T>
 std::vector<std::uint32_t> deal(const std::vector<double>& weights) {
     std::vector<std::uint32_t> starts(weights.size());
-    lumis::deal_counts<T>(weights, starts);
+    lumis::deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return starts[i]; });
+    starts.push_back(lumis::total_counts<T>);
     return starts;
 }
 
@@ -39,7 +39,7 @@ TEMPLATE_TEST_CASE("counts are whole, complete, and at least one for every weigh
         const auto starts = deal<T>(weights);
         std::uint64_t total = 0;
         for (std::size_t i = 0; i < weights.size(); ++i) {
-            const auto counts = lumis::counts_of<T>(starts, i);
+            const auto counts = starts[i + 1] - starts[i];
             REQUIRE((counts > 0) == (weights[i] > 0));
             total += counts;
         }
@@ -58,55 +58,7 @@ TEMPLATE_TEST_CASE("shares follow the weights to one count", "[cumulative_counts
     for (std::size_t i = 0; i < weights.size(); ++i) {
         const double exact = weights[i] / sum * lumis::total_counts<T>;
         // The count that each entry gets beforehand is taken from all.
-        CHECK(std::abs(lumis::counts_of<T>(starts, i) - exact) <= 1 + 1 + 1000 * weights[i] / sum);
-    }
-}
-
-TEMPLATE_TEST_CASE("what is drawn lies in its entry's run", "[cumulative_counts]", float, double) {
-    using T = TestType;
-    const auto starts = deal<T>({0, 2, 0, 0, 1, 1e-12, 5, 0});
-    const std::span<const std::uint32_t> table{starts};
-    const T corners[] = {T(0),     std::numeric_limits<T>::epsilon() / 2,     T(0.25),
-                         T(0.375), 1 - std::numeric_limits<T>::epsilon() / 2, T(1)};
-    for (const T u : corners) {
-        const auto entry = lumis::draw_entry<T>(table, u);
-        CHECK((entry.index == 1 || entry.index == 4 || entry.index == 5 || entry.index == 6));
-        CHECK(entry.counts == lumis::counts_of<T>(table, entry.index));
-        CHECK((entry.position > 0 && entry.position <= 1));
-    }
-    // The lightest entry owns a count or, by rounding, two; it is drawn by them.
-    const T only = static_cast<T>(starts[5]) / static_cast<T>(lumis::total_counts<T>);
-    CHECK(lumis::draw_entry<T>(table, only).index == 5);
-    CHECK(lumis::counts_of<T>(table, 5) <= 2);
-}
-
-TEST_CASE("float: an entry owns as many of all 2^24 uniforms as it has counts", "[cumulative_counts]") {
-    const std::vector<double> weights{0, 1, 1e-8, 0, 1, 3, 0.3, 0, 1e-3, 0};
-    const auto starts = deal<float>(weights);
-    std::vector<std::uint32_t> drawn(weights.size());
-    float last = 0;
-    std::size_t before = 0;
-    bool ordered = true, within = true;
-    for (std::uint32_t k = 0; k < 1u << 24; ++k) {
-        const auto entry = lumis::draw_entry<float>(starts, static_cast<float>(k) * 0x1p-24f);
-        ++drawn.at(entry.index);
-        ordered = ordered && entry.index >= before && (entry.index > before || entry.position >= last);
-        within = within && entry.position > 0 && entry.position <= 1;
-        before = entry.index;
-        last = entry.position;
-    }
-    CHECK(ordered);
-    CHECK(within);
-    for (std::size_t i = 0; i < weights.size(); ++i) CHECK(drawn[i] == lumis::counts_of<float>(starts, i));
-}
-
-TEMPLATE_TEST_CASE("an entry and a position lead back to their uniform", "[cumulative_counts]", float, double) {
-    using T = TestType;
-    const auto starts = deal<T>({0, 2, 0, 0, 1, 1e-12, 5, 0});
-    for (const double u : {0.0, 0.01, 0.2499, 0.3, 0.5, 0.77, 0.999999}) {
-        const auto entry = lumis::draw_entry<T>(starts, static_cast<T>(u));
-        const double back = lumis::uniform_of<T>(starts, entry.index, entry.position);
-        CHECK(std::abs(back - u) <= 4 * double{std::numeric_limits<T>::epsilon()});
+        CHECK(std::abs(static_cast<double>(starts[i + 1] - starts[i]) - exact) <= 1 + 1 + 1000 * weights[i] / sum);
     }
 }
 
@@ -125,6 +77,17 @@ TEMPLATE_TEST_CASE("points and the cells that hold them", "[cumulative_counts]",
             CHECK((moved > 0 && moved < 1));
         }
     }
+}
+
+TEST_CASE("of several bad weights the first is named, whatever row is looked at first", "[cumulative_counts]") {
+    std::vector<float> weights(40, 1.0f);
+    weights[13] = -3;
+    weights[14] = weights[33] = -7;
+    const auto backwards = [](std::size_t n, auto f) {
+        while (n > 0) f(--n);
+    };
+    CHECK_THROWS_WITH(lumis::require_weights(std::span<const float>{weights}, 8, backwards),
+                      Catch::Matchers::Contains("weight 13 is -3"));
 }
 
 TEST_CASE("refused weights are named", "[cumulative_counts]") {

@@ -28,12 +28,13 @@ std::vector<T> random_texels(std::size_t size, double decades) {
 }  // namespace
 
 // All 2^24 uniforms of a row 8192 wide, with texels from black to one that outshines the others by 1e8.
-TEST_CASE("float: the mass of every texel of a row of 8192 is the frequency drawn", "[environment_map]") {
+TEMPLATE_TEST_CASE("float: the mass of every texel of a row of 8192 is the frequency drawn", "[environment_map]",
+                   lumis::EnvironmentMap<float>, lumis::AliasEnvironmentMap<float>) {
     constexpr std::size_t width = 8192, height = 3, row = 1;
     auto texels = random_texels<float>(width * height, 4);
     for (std::size_t x = 0; x < width; x += 7) texels[row * width + x] = 0;
     texels[row * width + 4095] = 1e4f;
-    const lumis::EnvironmentMap map{width, height, texels};
+    const TestType map{width, height, texels};
     std::vector<std::uint32_t> drawn(width);
     for (std::uint32_t k = 0; k < 1u << 24; ++k) {
         const auto w = map.sample({static_cast<float>(k) * 0x1p-24f, 0.5f}).value;

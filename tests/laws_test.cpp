@@ -1,9 +1,11 @@
 // Every law over every strategy, in float and double.
 #include "catch.hpp"
 #include "strategies.hpp"
+#include <lumis/testing/batch.hpp>
 #include <lumis/testing/laws.hpp>
 
 #include <cstddef>
+#include <type_traits>
 
 namespace {
 
@@ -18,22 +20,38 @@ std::size_t count(const std::tuple<Lists...>*) {
     return (Lists::template make<double>().size() + ...);
 }
 
-}  // namespace
-
-TEMPLATE_LIST_TEST_CASE("sample and pdf agree", "[laws]", Strategies) {
-    const auto check = [](const auto& list) {
+// A law over all subjects of a kind, in float and double.
+template <class Subjects, class Law>
+void check_each(Law law_of) {
+    const auto check = [&](const auto& list) {
         for (const auto& subject : list) {
-            const auto law = laws::agreement(subject.strategy, subject.agreement);
+            const auto law = law_of(subject);
             INFO(subject.label << ": " << law.message);
             CHECK(law.passed);
         }
     };
     SECTION("float") {
-        check(TestType::template make<float>());
+        check(Subjects::template make<float>());
     }
     SECTION("double") {
-        check(TestType::template make<double>());
+        check(Subjects::template make<double>());
     }
+}
+
+}  // namespace
+
+TEMPLATE_LIST_TEST_CASE("sample and pdf agree", "[laws]", Strategies) {
+    check_each<TestType>([](const auto& subject) { return laws::agreement(subject.strategy, subject.agreement); });
+}
+
+TEMPLATE_LIST_TEST_CASE("a batch agrees with the single call", "[laws]", Strategies) {
+    check_each<TestType>([](const auto& subject) {
+        if constexpr (laws::BatchStrategy<std::remove_cvref_t<decltype(subject.strategy)>>) {
+            return laws::batch_agrees(subject.strategy, subject.agreement, subject.batch_distance);
+        } else {
+            return laws::LawResult{true, 0, "not for batches"};
+        }
+    });
 }
 
 TEMPLATE_LIST_TEST_CASE("the density integrates to the probability that something is drawn", "[laws]", Strategies) {

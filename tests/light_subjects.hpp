@@ -146,18 +146,17 @@ struct SphereBySolidAngle {
     }
 };
 
-template <bool mis_compensation>
+template <bool mis_compensation, template <class> class Map = lumis::EnvironmentMap>
 struct EnvironmentMaps {
     template <class T>
     static auto make() {
-        std::vector<Subject<lumis::EnvironmentMap<T>>> result;
+        std::vector<Subject<Map<T>>> result;
         const auto add = [&](const char* name, int width, int height, const std::vector<T>& texels) {
             for (const auto interpolation : {lumis::Interpolation::Nearest, lumis::Interpolation::Bilinear}) {
                 const bool nearest = interpolation == lumis::Interpolation::Nearest;
                 result.push_back(
                     {label(name, nearest ? ", nearest" : ", bilinear"),
-                     lumis::EnvironmentMap{width, height, texels,
-                                           lumis::EnvironmentOptions{interpolation, mis_compensation}},
+                     Map<T>{width, height, texels, lumis::EnvironmentOptions{interpolation, mis_compensation}},
                      lumis::testing::latlong_chart(static_cast<std::size_t>(width), static_cast<std::size_t>(height)),
                      1.0,
                      0,
@@ -189,5 +188,6 @@ struct EnvironmentMaps {
 
 using EnvironmentMap = EnvironmentMaps<false>;
 using CompensatedEnvironmentMap = EnvironmentMaps<true>;
+using AliasEnvironmentMap = EnvironmentMaps<false, lumis::AliasEnvironmentMap>;
 
 }  // namespace subjects

@@ -110,6 +110,30 @@ TEMPLATE_TEST_CASE("a sphere around a point next to its centre is seen everywher
     check_draws(lumis::AreaLight<lumis::Sphere<T>, lumis::BySolidAngle>{{{tiny, tiny, tiny}, tiny / 2}, {}});
 }
 
+TEMPLATE_TEST_CASE("GGX draws nothing for a vector too long or short to be a direction", "", float, double) {
+    using T = TestType;
+    // The value was infinite or NaN: mirroring overflows, the length of the stretched vector underflows.
+    const T huge = std::numeric_limits<T>::max(), tiny = 2 * std::sqrt(std::numeric_limits<T>::min());
+    check_draws(lumis::GgxVndf<T>{{tiny, 0, tiny * tiny}, {T(1e-4), T(1e-4)}});
+    for (const glm::vec<3, T>& wo : {glm::vec<3, T>{0, 0, huge}, {huge, 0, huge}, {huge, huge, T(1)}}) {
+        for (const T alpha : {T(1e-4), T(0.3), T(1), T(1e4)}) {
+            check_draws(lumis::GgxVndf<T>{wo, {alpha, alpha}});
+            check_draws(lumis::GgxReflection<T>{wo, {alpha, alpha}});
+            check_draws(lumis::GgxBoundedReflection<T>{wo, {alpha, alpha}});
+            check_draws(lumis::Reflected<lumis::GgxNdf<T>>{wo, lumis::GgxNdf<T>{{alpha, alpha}}});
+        }
+    }
+}
+
+TEST_CASE("a sliver as wide as its rounding is drawn by unit vectors or not at all", "") {
+    // Of length 0.985, with a density of 2e16.
+    const double far = -88305875091456;
+    const lumis::Parallelogram<double> sliver{{0.64773284271359444, 0.64313844684511423, 0.64313725475221872},
+                                              {0.64313725475221872, -0.62745102401822805, far},
+                                              {far, far, far}};
+    check_draws(lumis::AreaLight<lumis::Parallelogram<double>, lumis::BySolidAngle>{sliver, {far, far, far}});
+}
+
 TEMPLATE_TEST_CASE("a power that vanishes gives a technique without density no share", "", float, double) {
     using T = TestType;
     const std::vector<T> densities{T(2), T(0), T(3)};

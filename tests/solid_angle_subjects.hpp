@@ -13,6 +13,12 @@ namespace subjects {
 // Arcs of nearly half a turn, and a sliver's angles, cost the way back some digits.
 inline constexpr lumis::testing::RoundTripOptions few_digits{.tolerance = 2048};
 
+// And leave as few to what is drawn of nearly a hemisphere.
+template <class Light>
+double batch_distance(const Light& light) {
+    return light.solid_angle() > 6 ? few_digits.tolerance : 4;
+}
+
 struct TriangleBySolidAngle {
     template <class T>
     static auto make() {
@@ -34,13 +40,15 @@ struct TriangleBySolidAngle {
         for (const auto& [name, a, b, c, reference] : cases) {
             const lumis::Triangle<T> triangle{glm::vec<3, T>(a), glm::vec<3, T>(b), glm::vec<3, T>(c)};
             const auto [chart, blur] = view_of((a + b + c) / 3.0 - reference, (b - a) / 2.0, (c - a) / 2.0);
+            const lumis::AreaLight<lumis::Triangle<T>, lumis::BySolidAngle> light{triangle, glm::vec<3, T>(reference)};
             result.push_back({name,
-                              {triangle, glm::vec<3, T>(reference)},
+                              light,
                               chart,
                               1.0,
                               blur * std::numeric_limits<T>::epsilon(),
                               {},
-                              few_digits});
+                              few_digits,
+                              batch_distance(light)});
         }
         return result;
     }
@@ -76,7 +84,14 @@ struct ParallelogramBySolidAngle {
             if (light.solid_angle() > 1e5f * std::numeric_limits<T>::epsilon()) {
                 round_trip.tolerance += 2 / static_cast<double>(light.solid_angle());
             }
-            result.push_back({name, light, chart, 1.0, blur * std::numeric_limits<T>::epsilon(), {}, round_trip});
+            result.push_back({name,
+                              light,
+                              chart,
+                              1.0,
+                              blur * std::numeric_limits<T>::epsilon(),
+                              {},
+                              round_trip,
+                              batch_distance(light)});
         }
         return result;
     }

@@ -29,6 +29,7 @@ using Strategies = std::tuple<subjects::CosineHemisphere,           //
                               subjects::SphereBySolidAngle,         //
                               subjects::EnvironmentMap,             //
                               subjects::CompensatedEnvironmentMap,  //
+                              subjects::AliasEnvironmentMap,        //
                               subjects::PiecewiseConstant1D,        //
                               subjects::PiecewiseConstant2D,        //
                               subjects::AliasTable,                 //

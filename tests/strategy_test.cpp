@@ -58,6 +58,7 @@ TEST_CASE("strategies of the library and of a host model the concept", "[strateg
     STATIC_REQUIRE(is_strategy<lumis::GgxReflection>);
     STATIC_REQUIRE(is_strategy<lumis::PerfectReflection>);
     STATIC_REQUIRE(is_strategy<lumis::EnvironmentMap>);
+    STATIC_REQUIRE(is_strategy<lumis::AliasEnvironmentMap>);
     STATIC_REQUIRE(lumis::Strategy<lumis::AreaLight<lumis::Triangle<double>>>);
     STATIC_REQUIRE(lumis::Strategy<lumis::AreaLight<lumis::Parallelogram<float>, lumis::ByArea>>);
     STATIC_REQUIRE(lumis::Strategy<lumis::AreaLight<lumis::Sphere<float>, lumis::ByArea>>);

@@ -23,6 +23,8 @@ struct Subject {
     double blur = 0;
     lumis::testing::AgreementOptions agreement{};
     lumis::testing::RoundTripOptions round_trip{};
+    double batch_distance =
+        agreement.rounding;  // between what a batch and the single call draw, in units in the last place
 };
 
 template <class... Parts>

@@ -26,11 +26,14 @@ class Frame {
     constexpr Frame(const Direction<T>& tangent, const Direction<T>& bitangent, const Direction<T>& normal) noexcept
         : tangent_{tangent}, bitangent_{bitangent}, normal_{normal} {}
 
-    [[nodiscard]] constexpr Direction<T> to_world(const Direction<T>& v) const noexcept {
-        return v.x * tangent_ + v.y * bitangent_ + v.z * normal_;
+    template <RealOf<T> R = T>
+    [[nodiscard]] constexpr Direction<R> to_world(const Direction<R>& v) const noexcept {
+        return v.x * Direction<R>(tangent_) + v.y * Direction<R>(bitangent_) + v.z * Direction<R>(normal_);
     }
-    [[nodiscard]] constexpr Direction<T> to_local(const Direction<T>& v) const noexcept {
-        return {glm::dot(v, tangent_), glm::dot(v, bitangent_), glm::dot(v, normal_)};
+    template <RealOf<T> R = T>
+    [[nodiscard]] constexpr Direction<R> to_local(const Direction<R>& v) const noexcept {
+        return {glm::dot(v, Direction<R>(tangent_)), glm::dot(v, Direction<R>(bitangent_)),
+                glm::dot(v, Direction<R>(normal_))};
     }
 
     [[nodiscard]] constexpr const Direction<T>& tangent() const noexcept { return tangent_; }

@@ -3,27 +3,26 @@
 
 #include "lumis/core/spherical.hpp"
 
-#include <cmath>
 #include <concepts>
-#include <numbers>
 
 namespace lumis {
 
-// (u, v) of a direction of any length, both in [0, 1]; NaN for a NaN. acos(y) is had from both sides of its angle: near
-// the poles a float y has no digits left.
-template <std::floating_point T>
-[[nodiscard]] glm::vec<2, T> latlong_from_direction(const Direction<T>& w) noexcept {
-    const T theta = std::atan2(std::hypot(w.x, w.z), w.y);
-    const T u = T(0.5) + std::atan2(w.z, w.x) * (std::numbers::inv_pi_v<T> / 2);
-    return {u < 1 ? u : u - 1, theta * std::numbers::inv_pi_v<T>};
+// (u, v) of a direction, of any length whose square is in range; both in [0, 1], and NaN for a NaN. acos(y) is had from
+// both sides of its angle: near the poles a float y has no digits left.
+template <Real R>
+[[nodiscard]] glm::vec<2, R> latlong_from_direction(const Direction<R>& w) noexcept {
+    const R u = scalar_of<R>(0.5) + signed_turn_of(w.x, w.z);
+    const R v = 2 * signed_turn_of(w.y, real::sqrt(R(w.x * w.x + w.z * w.z)));
+    return {real::select(u < 1, u, u - 1), v};
 }
 
-// The direction at u whose angle to a pole, +y or -y, has the given versine (1 - cos) in [0, 2].
-template <std::floating_point T>
-[[nodiscard]] Direction<T> direction_from_latlong(T u, T versine, bool from_top) noexcept {
-    const T sin_theta = sine_of_versine(versine);
+// The direction at u in [0, 1] whose angle to a pole has the given versine (1 - cos) in [0, 2]. pole: 1 for +y, -1 for -y.
+template <Real R>
+[[nodiscard]] Direction<R> direction_from_latlong(R u, std::type_identity_t<R> versine,
+                                                  std::type_identity_t<R> pole) noexcept {
+    const R sin_theta = sine_of_versine(versine);
     const auto circle = unit_circle(u);
-    return {-sin_theta * circle.x, from_top ? 1 - versine : versine - 1, -sin_theta * circle.y};
+    return {-sin_theta * circle.x, pole * (1 - versine), -sin_theta * circle.y};
 }
 
 }  // namespace lumis

@@ -3,9 +3,6 @@
 
 #include "lumis/core/sample.hpp"
 
-#include <cmath>
-#include <concepts>
-
 namespace lumis {
 
 namespace measure {
@@ -18,9 +15,9 @@ struct Counting {};    // of indices: the density is a probability
 // The one place where a density per area becomes one per solid angle: pdf_area distance^2 / |cos_light|, with the
 // distance to the surface point and the cosine there between the surface normal and the direction (Veach 1997, eq. 8.2).
 // Yields 0 where no density can be formed: edge-on, at distance 0, for a surface without area.
-template <std::floating_point T>
-[[nodiscard]] T area_to_solid_angle(T pdf_area, T distance, T cos_light) noexcept {
-    return density_or_zero(pdf_area * distance * distance / std::abs(cos_light));
+template <Real R>
+[[nodiscard]] R area_to_solid_angle(scalar_of<R> pdf_area, R distance, R cos_light) noexcept {
+    return density_or_zero(R(pdf_area * distance * distance / real::abs(cos_light)));
 }
 
 }  // namespace lumis

@@ -36,7 +36,7 @@ inline constexpr int uniform_bits = std::numeric_limits<T>::digits;
 template <std::floating_point T>
 [[nodiscard]] constexpr std::uint64_t lattice_index(T u) noexcept {
     constexpr auto size = std::uint64_t{1} << uniform_bits<T>;
-    const auto index = static_cast<std::uint64_t>(u * static_cast<T>(size));
+    const auto index = static_cast<std::uint64_t>(static_cast<std::int64_t>(u * static_cast<T>(size)));
     return index < size ? index : size - 1;
 }
 

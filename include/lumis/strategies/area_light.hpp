@@ -47,16 +47,20 @@ class AreaLight<Shape, ByArea> {
     AreaLight(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept
         : view_{shape, reference_point} {}
 
-    [[nodiscard]] LightSample<Point, Scalar> sample(glm::vec<2, Scalar> u) const noexcept {
-        const auto [position, cos_times_distance] = view_.sample(u);
-        const Scalar distance = glm::length(position);
-        if (!is_squared_length(distance * distance)) return {};
-        return {position / distance, pdf_from_hit(distance, cos_times_distance / distance), distance};
+    template <RealOf<Scalar> R = Scalar>
+    [[nodiscard]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+        const SurfaceSample<R> point = view_.sample(u);
+        const R squared = glm::dot(point.position, point.position);
+        const auto valid = is_squared_length(squared);
+        const R distance = real::select(valid, real::sqrt(squared), 0), inverse = 1 / distance;
+        return {real::select(valid, point.position * inverse, Direction<R>{}),
+                density(distance, R(point.cos_times_distance * inverse)), distance};
     }
 
-    [[nodiscard]] Scalar pdf(const Point& w) const noexcept {
-        const auto hit = view_.intersect(w);
-        return hit.distance > 0 ? pdf_from_hit(hit.distance, hit.cos_light) : Scalar(0);
+    template <RealOf<Scalar> R = Scalar>
+    [[nodiscard]] R pdf(const Direction<R>& w) const noexcept {
+        const SurfaceHit<R> hit = view_.intersect(w);
+        return density(hit.distance, hit.cos_light);
     }
 
     // Not for spheres, on which two points can lie in one direction.
@@ -68,12 +72,17 @@ class AreaLight<Shape, ByArea> {
     // For hosts that already know where a ray hit this light: the distance, and the cosine between the ray and the
     // surface normal there, of either sign.
     [[nodiscard]] Scalar pdf_from_hit(Scalar distance, Scalar cos_light) const noexcept {
-        return area_to_solid_angle(1 / view_.area(), distance, cos_light);
+        return density(distance, cos_light);
     }
 
     [[nodiscard]] Scalar area() const noexcept { return view_.area(); }
 
   private:
+    template <Real R>
+    [[nodiscard]] R density(R distance, R cos_light) const noexcept {
+        return area_to_solid_angle(1 / view_.area(), distance, cos_light);
+    }
+
     typename detail::ViewOf<Shape>::type view_;
 };
 

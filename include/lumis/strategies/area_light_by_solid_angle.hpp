@@ -14,11 +14,14 @@ namespace lumis {
 
 namespace detail {
 
-// Nothing where rounding has put the direction beside the light. On a sphere's surface the distance is 0.
-template <std::floating_point T>
-[[nodiscard]] LightSample<Direction<T>, T> seen_at(const Direction<T>& w, T pdf, T distance) noexcept {
-    if (!(all_finite(w) && distance >= 0 && distance <= std::numeric_limits<T>::max())) return {};
-    return {w, pdf, distance};
+// Nothing where rounding has put the direction beside the light, or left none: of a sliver not wider than its coordinates' last
+// place. On a sphere's surface the distance is 0.
+template <Real R>
+[[nodiscard]] LightSample<Direction<R>, R> seen_at(const Direction<R>& w, scalar_of<R> pdf, R distance) noexcept {
+    constexpr auto rounding = 64 * std::numeric_limits<R>::epsilon();
+    const auto seen =
+        real::abs(R(glm::dot(w, w) - 1)) <= rounding && distance >= 0 && distance <= std::numeric_limits<R>::max();
+    return {real::select(seen, w, Direction<R>{}), real::select(seen, R(pdf), 0), real::select(seen, distance, 0)};
 }
 
 }  // namespace detail
@@ -36,15 +39,18 @@ class AreaLight<Sphere<T>, BySolidAngle> {
         : view_{sphere, reference_point}, pdf_{density_or_zero(1 / view_.solid_angle())} {}
 
     // u.x = 0 is the centre of the cone.
-    [[nodiscard]] LightSample<Point, T> sample(glm::vec<2, T> u) const noexcept {
-        if (!(pdf_ > 0)) return {};
+    template <RealOf<T> R = T>
+    [[nodiscard]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         const auto [direction, distance] = view_.direction(u);
         return detail::seen_at(direction, pdf_, distance);
     }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept { return view_.invert(w); }
 
-    [[nodiscard]] T pdf(const Point& w) const noexcept { return view_.contains(w) ? pdf_ : T(0); }
+    template <RealOf<T> R = T>
+    [[nodiscard]] R pdf(const Direction<R>& w) const noexcept {
+        return real::select(view_.contains(w), R(pdf_), 0);
+    }
 
     [[nodiscard]] T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
 
@@ -71,13 +77,16 @@ class AreaLight<Triangle<T>, BySolidAngle> {
           pdf_{view_.edge_on() ? T(0) : density_or_zero(1 / seen_.solid_angle())} {}
 
     // u.x cuts off a share of the solid angle by an arc from a to the edge bc; u.y goes along that arc.
-    [[nodiscard]] LightSample<Point, T> sample(glm::vec<2, T> u) const noexcept {
-        if (!(pdf_ > 0)) return {};
-        const Point w = seen_.sample(u);
+    template <RealOf<T> R = T>
+    [[nodiscard]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+        const Direction<R> w = seen_.sample(u);
         return detail::seen_at(w, pdf_, view_.distance_along(w));
     }
 
-    [[nodiscard]] T pdf(const Point& w) const noexcept { return view_.intersect(w).distance > 0 ? pdf_ : T(0); }
+    template <RealOf<T> R = T>
+    [[nodiscard]] R pdf(const Direction<R>& w) const noexcept {
+        return real::select(view_.intersect(w).distance > 0, R(pdf_), 0);
+    }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept { return seen_.invert(w); }
 
@@ -124,20 +133,16 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
 
     // u.x goes along the first edge and u.y along the second or, where the shape is split, u.x from the first edge by way
     // of the diagonal to the second, and u.y away from the corner.
-    [[nodiscard]] LightSample<Point, T> sample(glm::vec<2, T> u) const noexcept {
-        if (!(pdf_ > 0)) return {};
-        Point w;
-        if (rectangle_) {
-            const glm::vec<3, T> position = rectangle_->sample(u);
-            w = position / glm::length(position);
-        } else {
-            const T share = first_.solid_angle() / solid_angle_;
-            w = u.x < share ? first_.sample({u.x / share, u.y}) : second_.sample({(1 - u.x) / (1 - share), u.y});
-        }
+    template <RealOf<T> R = T>
+    [[nodiscard]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+        const Direction<R> w = direction(u);
         return detail::seen_at(w, pdf_, view_.distance_along(w));
     }
 
-    [[nodiscard]] T pdf(const Point& w) const noexcept { return view_.intersect(w).distance > 0 ? pdf_ : T(0); }
+    template <RealOf<T> R = T>
+    [[nodiscard]] R pdf(const Direction<R>& w) const noexcept {
+        return real::select(view_.intersect(w).distance > 0, R(pdf_), 0);
+    }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept {
         if (rectangle_) return rectangle_->invert(w);
@@ -153,6 +158,20 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     [[nodiscard]] T solid_angle() const noexcept { return solid_angle_; }
 
   private:
+    template <Real R>
+    [[nodiscard]] Direction<R> direction(glm::vec<2, R> u) const noexcept {
+        if (rectangle_) return glm::normalize(rectangle_->sample(u));
+        const T share = first_.solid_angle() / solid_angle_;
+        return real::either(
+            u.x < share,
+            [&] {
+                return first_.sample(glm::vec<2, R>{u.x / share, u.y});
+            },
+            [&] {
+                return second_.sample(glm::vec<2, R>{(1 - u.x) / (1 - share), u.y});
+            });
+    }
+
     // The triangle of the corner and the ends of two vectors from it.
     [[nodiscard]] SphericalTriangle<T> half(const glm::vec<3, T>& ab, const glm::vec<3, T>& ac) const noexcept {
         return {view_.corner(), view_.corner() + ab, view_.corner() + ac, ab, ac};

@@ -5,7 +5,6 @@
 #include "lumis/core/spherical.hpp"
 #include "lumis/core/strategy.hpp"
 
-#include <cmath>
 #include <concepts>
 #include <numbers>
 
@@ -19,14 +18,18 @@ struct CosineHemisphere {
     static constexpr int dimensions = 2;
 
     // u.x = sin^2(theta), u.y = phi / 2 pi. z = sqrt(1 - u.x) has no cancellation; u.x == 1 draws nothing.
-    [[nodiscard]] Sample<Point, T> sample(glm::vec<2, T> u) const noexcept {
-        const T radius = std::sqrt(u.x);
+    template <RealOf<T> R = T>
+    [[nodiscard]] Sample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+        const R radius = real::sqrt(u.x);
         const auto circle = unit_circle(u.y);
-        const Point w{radius * circle.x, radius * circle.y, std::sqrt(1 - u.x)};
-        return {w, pdf(w)};
+        const R z = real::sqrt(R(1 - u.x));
+        return {{radius * circle.x, radius * circle.y, z}, z * std::numbers::inv_pi_v<T>};
     }
 
-    [[nodiscard]] T pdf(const Point& w) const noexcept { return density_or_zero(w.z * std::numbers::inv_pi_v<T>); }
+    template <RealOf<T> R = T>
+    [[nodiscard]] R pdf(const Direction<R>& w) const noexcept {
+        return density_or_zero(R(w.z * std::numbers::inv_pi_v<T>));
+    }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept {
         return {w.x * w.x + w.y * w.y, turn_of(w.x, w.y)};

@@ -1,8 +1,10 @@
 // A grid of cells of [0,1]^2 drawn in proportion to weights: a row first, then a cell in it, both in fixed point (see
-// cumulative_counts.hpp). What the environment map and PiecewiseConstant2D are made of.
+// cumulative_counts.hpp). What the environment map and PiecewiseConstant2D are made of. Rows, the kind of the tables
+// within rows, is GuidedRows or AliasRows; the row itself is always drawn by a guided table.
 #pragma once
 
 #include "lumis/strategies/cumulative_counts.hpp"
+#include "lumis/strategies/guided_rows.hpp"
 
 #include <glm/vec2.hpp>
 
@@ -19,74 +21,84 @@
 
 namespace lumis {
 
-template <std::floating_point T>
+template <std::floating_point T, template <class> class Rows = GuidedRows>
 class CountGrid {
   public:
-    // A drawn cell, and where in it, in units of the cell.
+    // A drawn cell, its counts within its row, and where in it, in units of the cell.
     struct Drawn {
+        std::size_t column, row;
+        std::uint32_t counts;
+        glm::vec<2, T> position;
+    };
+
+    // A point of [0, 1]^2 as the cell that holds it, and where in it.
+    struct Located {
         std::size_t column, row;
         glm::vec<2, T> position;
     };
 
-    // An empty grid. Throws std::invalid_argument for a size of 0 or beyond the number of counts, and if `values`, the
+    // A grid yet to be dealt. Throws std::invalid_argument for a size of 0 or beyond the number of counts, and if `values`, the
     // number of weights that there are, is not width x height.
     CountGrid(std::integral auto width, std::integral auto height, std::size_t values)
-        : width_{checked(width, "width")}, height_{checked(height, "height")} {
-        if (values != width_ * height_) {
-            throw std::invalid_argument("lumis: a grid of " + std::to_string(width_) + " x " + std::to_string(height_) +
-                                        " got " + std::to_string(values) + " values");
-        }
-        row_starts_.resize(height_);
-        cell_starts_.resize(width_ * height_);
-    }
+        : width_{checked(width, "width")},
+          height_{checked(height, "height", width_, values)},
+          rows_{height_, 1},
+          cells_{width_, height_} {}
 
-    // weight(column, row): of a cell, finite and not negative. scale(row): what a row's sum of weights is multiplied by.
-    void deal(auto weight, auto scale) {
-        std::vector<double> weights(std::max(width_, height_));
-        std::vector<ScaledSum> row_sums(height_);
-        for (std::size_t row = 0; row < height_; ++row) {
-            for (std::size_t column = 0; column < width_; ++column) weights[column] = weight(column, row);
-            row_sums[row] = deal_counts<T>({weights.data(), width_}, {cell_starts_.data() + row * width_, width_});
-        }
+    // weights_of(row, weights): sets the weights of a row's cells, finite and not negative. scale(row): what a row's sum
+    // of weights is multiplied by. for_each_row: runs the rows, see InOrder.
+    void deal(auto weights_of, auto scale, const auto& for_each_row) {
+        std::vector<ScaledSum> sums(height_);
+        for_each_row(height_, [&](std::size_t row) {
+            std::vector<double> weights(width_);
+            weights_of(row, std::span<double>{weights});
+            sums[row] = cells_.deal(row, weights);
+        });
         const auto positive = [](const ScaledSum& sum) { return sum.value > 0; };
-        empty_ = std::ranges::none_of(row_sums, positive);
+        empty_ = std::ranges::none_of(sums, positive);
         // In units of the brightest row; what would vanish beside it keeps the least weight that there is.
-        const int exponent = std::ranges::max(row_sums, {}, &ScaledSum::exponent).exponent;
+        const int exponent = std::ranges::max(sums, {}, &ScaledSum::exponent).exponent;
+        std::vector<double> weights(height_);
         for (std::size_t row = 0; row < height_; ++row) {
-            weights[row] = positive(row_sums[row]) ? std::max(scale(row) * row_sums[row].relative_to(exponent),
-                                                              std::numeric_limits<double>::denorm_min())
-                                                   : 0.0;
+            weights[row] = positive(sums[row]) ? std::max(scale(row) * sums[row].relative_to(exponent),
+                                                          std::numeric_limits<double>::denorm_min())
+                                               : 0.0;
         }
-        deal_counts<T>({weights.data(), height_}, row_starts_);
+        rows_.deal(0, weights);
     }
 
     [[nodiscard]] std::size_t width() const noexcept { return width_; }
     [[nodiscard]] std::size_t height() const noexcept { return height_; }
     [[nodiscard]] bool empty() const noexcept { return empty_; }
+    [[nodiscard]] std::size_t memory_bytes() const noexcept { return rows_.memory_bytes() + cells_.memory_bytes(); }
 
-    // Not of an empty grid. Positions stay a few units in the last place clear of the cell's edges: a point rounded
-    // across one would be given the density of one cell and belong to another.
+    // Positions stay a few units in the last place clear of the cell's edges: a point rounded across one would be given
+    // the density of one cell and belong to another. An empty grid draws its last cell.
     [[nodiscard]] Drawn draw(glm::vec<2, T> u) const noexcept {
-        const auto row = draw_entry<T>(row_starts_, u.y);
-        const auto column = draw_entry<T>(cells_of(row.index), u.x);
-        return {
-            column.index, row.index, {clear_of_edges(column.position, width_), clear_of_edges(row.position, height_)}};
+        const auto row = rows_.draw(0, u.y);
+        const auto column = cells_.draw(row.index, u.x);
+        return {column.index,
+                row.index,
+                column.counts,
+                {clear_of_edges(column.position, width_), clear_of_edges(row.position, height_)}};
     }
 
-    // The u that draw a point, position in units of the cell.
-    [[nodiscard]] glm::vec<2, T> invert(const Drawn& point) const noexcept {
-        return {uniform_of<T>(cells_of(point.row), point.column, point.position.x),
-                uniform_of<T>(row_starts_, point.row, point.position.y)};
+    // The u that draw a point.
+    [[nodiscard]] glm::vec<2, T> invert(const Located& point) const noexcept requires requires(const Rows<T>& rows) {
+        rows.uniform_of(0, 0, T(0));
+    }
+    {
+        return {cells_.uniform_of(point.row, point.column, point.position.x),
+                rows_.uniform_of(0, point.row, point.position.y)};
     }
 
     // The probability of a row, and of a cell given its row, in counts.
-    [[nodiscard]] std::uint32_t row_counts(std::size_t row) const noexcept { return counts_of<T>(row_starts_, row); }
+    [[nodiscard]] std::uint32_t row_counts(std::size_t row) const noexcept { return rows_.counts(0, row); }
     [[nodiscard]] std::uint32_t cell_counts(std::size_t column, std::size_t row) const noexcept {
-        return counts_of<T>(cells_of(row), column);
+        return cells_.counts(row, column);
     }
 
-    // The cell that holds a point of [0, 1]^2, and where in it.
-    [[nodiscard]] Drawn locate(glm::vec<2, T> x) const noexcept {
+    [[nodiscard]] Located locate(glm::vec<2, T> x) const noexcept {
         const std::size_t column = index_of(x.x, width_), row = index_of(x.y, height_);
         return {column,
                 row,
@@ -103,14 +115,19 @@ class CountGrid {
         return static_cast<std::size_t>(extent);
     }
 
-    [[nodiscard]] std::span<const std::uint32_t> cells_of(std::size_t row) const noexcept {
-        return {cell_starts_.data() + row * width_, width_};
+    static std::size_t checked(std::integral auto extent, const char* name, std::size_t width, std::size_t values) {
+        const std::size_t height = checked(extent, name);
+        if (values != width * height) {
+            throw std::invalid_argument("lumis: a grid of " + std::to_string(width) + " x " + std::to_string(height) +
+                                        " got " + std::to_string(values) + " values");
+        }
+        return height;
     }
 
     std::size_t width_, height_;
     bool empty_ = true;
-    std::vector<std::uint32_t> row_starts_;   // counts before each row
-    std::vector<std::uint32_t> cell_starts_;  // within each row, counts before each cell
+    GuidedRows<T> rows_;  // one table of all rows
+    Rows<T> cells_;       // a table of each row's cells
 };
 
 }  // namespace lumis

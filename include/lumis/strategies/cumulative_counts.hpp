@@ -14,6 +14,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace lumis {
 
@@ -25,15 +26,37 @@ inline constexpr int count_bits = std::min(uniform_bits<T>, 31);
 template <std::floating_point T>
 inline constexpr std::uint32_t total_counts = std::uint32_t{1} << count_bits<T>;
 
+// How tables are built unless the host brings threads of its own: f(0), f(1), ..., f(n - 1), one after the other. A
+// host's own loop may call f in any order and at the same time; the tables come out the same.
+struct InOrder {
+    void operator()(std::size_t n, auto f) const {
+        for (std::size_t i = 0; i < n; ++i) f(i);
+    }
+};
+
+template <std::floating_point T>
+[[nodiscard]] constexpr bool is_weight(T weight) noexcept {
+    return weight >= 0 && weight <= std::numeric_limits<T>::max();
+}
+
 // Throws std::invalid_argument naming the index and the value of the first weight that is NaN, infinite or negative.
+// They are looked at in rows of the given size, see InOrder.
+template <std::floating_point T>
+void require_weights(std::span<const T> weights, std::size_t row_size, const auto& for_each_row) {
+    std::vector<char> is_bad(weights.size() / row_size);
+    for_each_row(is_bad.size(), [&](std::size_t row) {
+        int bad = 0;  // counted, not searched for: that is done several at a time
+        for (const T weight : weights.subspan(row * row_size, row_size)) bad |= !is_weight(weight);
+        is_bad[row] = static_cast<char>(bad);
+    });
+    if (std::ranges::none_of(is_bad, [](char bad) { return bad != 0; })) return;
+    const std::size_t i = static_cast<std::size_t>(std::ranges::find_if_not(weights, is_weight<T>) - weights.begin());
+    throw std::invalid_argument("lumis: weight " + std::to_string(i) + " is " + std::to_string(weights[i]) +
+                                "; weights must be finite and not negative");
+}
 template <std::floating_point T>
 void require_weights(std::span<const T> weights) {
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-        if (!(weights[i] >= 0 && weights[i] <= std::numeric_limits<T>::max())) {
-            throw std::invalid_argument("lumis: weight " + std::to_string(i) + " is " + std::to_string(weights[i]) +
-                                        "; weights must be finite and not negative");
-        }
-    }
+    if (!weights.empty()) require_weights(weights, weights.size(), InOrder{});
 }
 
 // value 2^exponent: sums of weights of any magnitude that neither overflow nor underflow.
@@ -46,44 +69,40 @@ struct ScaledSum {
     }
 };
 
-// Deals the counts out: starts[i] becomes the number of counts before entry i. Every entry with a weight above 0 gets
+// Deals the counts out: start_of(i) becomes the number of counts before entry i. Every entry with a weight above 0 gets
 // one count, and its share of the rest; entries of weight 0 get none. weights: finite, not negative, not more than there
-// are counts; all 0 deals nothing. Returns the sum of the weights.
+// are counts; all 0 leaves every count to the last entry. Returns the sum of the weights.
 template <std::floating_point T>
-ScaledSum deal_counts(std::span<const double> weights, std::span<std::uint32_t> starts) {
-    const double largest = *std::max_element(weights.begin(), weights.end());
-    if (!(largest > 0)) {
-        std::fill(starts.begin(), starts.end(), 0u);
-        return {};
-    }
-    // In units of a power of two near the largest weight.
-    const int exponent = std::ilogb(largest);
-    const auto scaled = [&](double weight) { return std::scalbn(weight, -exponent); };
-    double sum = 0;
+ScaledSum deal_counts(std::span<const double> weights, auto start_of) {
+    double sum = 0, scale = 1;
+    int exponent = 0;
     std::uint32_t positive = 0;
     for (const double weight : weights) {
-        sum += scaled(weight);
+        sum += weight;
         positive += weight > 0;
     }
+    if (!(sum > 0x1p-900 && sum <= std::numeric_limits<double>::max())) {
+        // In units of a power of two near the largest weight.
+        const double largest = *std::max_element(weights.begin(), weights.end());
+        exponent = largest > 0 ? std::clamp(std::ilogb(largest), -1022, 1022) : 0;
+        scale = std::scalbn(1.0, -exponent);
+        sum = 0;
+        for (const double weight : weights) sum += weight * scale;
+    }
     const double shared = total_counts<T> - positive;
+    const double counts_of_weight = sum > 0 ? shared / sum : 0;
     double before = 0;
     std::uint32_t positive_before = 0;
     for (std::size_t i = 0; i < weights.size(); ++i) {
-        const double share = std::min(before / sum, 1.0) * shared;
-        starts[i] = positive_before + static_cast<std::uint32_t>(share + 0.5);
-        before += scaled(weights[i]);
+        const double share = std::min(before * counts_of_weight, shared);
+        start_of(i) = positive_before + static_cast<std::uint32_t>(static_cast<std::int64_t>(share + 0.5));
+        before += weights[i] * scale;
         positive_before += weights[i] > 0;
     }
     return {sum, exponent};
 }
 
-// The number of counts of entry i.
-template <std::floating_point T>
-[[nodiscard]] std::uint32_t counts_of(std::span<const std::uint32_t> starts, std::size_t i) noexcept {
-    return (i + 1 < starts.size() ? starts[i + 1] : total_counts<T>)-starts[i];
-}
-
-// An entry drawn by a uniform, its number of counts, and where within the entry's run the uniform lies, in (0, 1].
+// An entry drawn by a uniform, its number of counts, and where within the run of counts the uniform lies, in (0, 1].
 template <std::floating_point T>
 struct DrawnEntry {
     std::size_t index;
@@ -91,26 +110,22 @@ struct DrawnEntry {
     T position;
 };
 
-// u in [0, 1]. An entry of weight 0 is never drawn.
+// A lattice point as a count, and where it lies within the count, in (0, 1): a float's has no bits left for that and
+// lies in the middle.
 template <std::floating_point T>
-[[nodiscard]] DrawnEntry<T> draw_entry(std::span<const std::uint32_t> starts, T u) noexcept {
-    constexpr int within_bits = uniform_bits<T> - count_bits<T>;
-    const std::uint64_t lattice = lattice_index(u);
-    const auto count = static_cast<std::uint32_t>(lattice >> within_bits);
-    const auto index =
-        static_cast<std::size_t>(std::upper_bound(starts.begin(), starts.end(), count) - starts.begin()) - 1;
-    // The middle of the lattice cell: centred even where an entry has a single count.
-    constexpr std::uint64_t mask = (std::uint64_t{1} << within_bits) - 1;
-    const T within = (static_cast<T>(lattice & mask) + T(0.5)) / static_cast<T>(mask + 1);
-    const std::uint32_t counts = counts_of<T>(starts, index);
-    return {index, counts, (static_cast<T>(count - starts[index]) + within) / static_cast<T>(counts)};
-}
+struct LatticePoint {
+    std::uint32_t count;
+    T within;
+};
 
-// The uniform that draws an entry at a position within its run: the inverse of draw_entry.
+// u in [0, 1].
 template <std::floating_point T>
-[[nodiscard]] T uniform_of(std::span<const std::uint32_t> starts, std::size_t index, T position) noexcept {
-    return (static_cast<T>(starts[index]) + position * static_cast<T>(counts_of<T>(starts, index))) /
-           static_cast<T>(total_counts<T>);
+[[nodiscard]] LatticePoint<T> lattice_point(T u) noexcept {
+    constexpr int within_bits = uniform_bits<T> - count_bits<T>;
+    constexpr std::uint64_t size = std::uint64_t{1} << within_bits;
+    const std::uint64_t lattice = lattice_index(u);
+    return {static_cast<std::uint32_t>(lattice >> within_bits),
+            (static_cast<T>(static_cast<std::int64_t>(lattice & (size - 1))) + T(0.5)) / static_cast<T>(size)};
 }
 
 // The one of n equal cells of [0, 1] that holds x; beyond them the nearest, and the first for a NaN.

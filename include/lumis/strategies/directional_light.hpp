@@ -21,12 +21,16 @@ class DirectionalLight {
     // direction: unit, towards the light.
     constexpr explicit DirectionalLight(const Direction<T>& direction) noexcept : direction_{direction} {}
 
-    [[nodiscard]] constexpr LightSample<Point, T> sample(glm::vec<2, T>) const noexcept {
+    template <RealOf<T> R = T>
+    [[nodiscard]] constexpr LightSample<Direction<R>, R> sample(glm::vec<2, R>) const noexcept {
         if (!all_finite(direction_)) return {};
-        return {direction_, T(1), std::numeric_limits<T>::infinity()};
+        return {Direction<R>(direction_), T(1), std::numeric_limits<T>::infinity()};
     }
 
-    [[nodiscard]] constexpr T pdf(const Point&) const noexcept { return 0; }
+    template <RealOf<T> R = T>
+    [[nodiscard]] constexpr R pdf(const Direction<R>&) const noexcept {
+        return T(0);
+    }
 
   private:
     Direction<T> direction_;

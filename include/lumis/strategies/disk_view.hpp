@@ -27,19 +27,23 @@ class DiskView {
     [[nodiscard]] T area() const noexcept { return std::numbers::pi_v<T> * radius_ * radius_; }
 
     // u.x = 0 is the centre, u.y a fraction of a turn.
-    [[nodiscard]] SurfaceSample<T> sample(glm::vec<2, T> u) const noexcept {
-        const T distance = radius_ * std::sqrt(u.x);
+    template <RealOf<T> R = T>
+    [[nodiscard]] SurfaceSample<R> sample(glm::vec<2, R> u) const noexcept {
+        using Vector = glm::vec<3, R>;
+        const R distance = radius_ * real::sqrt(u.x);
         const auto circle = unit_circle(u.y);
-        return {center_ + distance * (circle.x * frame_.tangent() + circle.y * frame_.bitangent()), height_};
+        const Vector across = circle.x * Vector(frame_.tangent()) + circle.y * Vector(frame_.bitangent());
+        return {Vector(center_) + distance * across, height_};
     }
 
     // w: unit. The rim gives way by the rounding of w, so that a direction drawn to it meets the disk.
-    [[nodiscard]] SurfaceHit<T> intersect(const Direction<T>& w) const noexcept {
-        const T cos_light = glm::dot(w, frame_.normal());
-        const T distance = height_ / cos_light;
-        const T rounding = 4 * std::numeric_limits<T>::epsilon() * distance / std::abs(cos_light);
-        if (!(distance > 0 && glm::length(distance * w - center_) <= radius_ + rounding)) return {};
-        return {distance, cos_light};
+    template <RealOf<T> R = T>
+    [[nodiscard]] SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
+        const R cos_light = glm::dot(w, Direction<R>(frame_.normal()));
+        const R distance = height_ / cos_light;
+        const R rounding = 4 * std::numeric_limits<T>::epsilon() * distance / real::abs(cos_light);
+        const R across = glm::length(distance * w - glm::vec<3, R>(center_));
+        return hit_if(distance > 0 && across <= radius_ + rounding, distance, cos_light);
     }
 
     [[nodiscard]] glm::vec<2, T> invert(const Direction<T>& w) const noexcept {

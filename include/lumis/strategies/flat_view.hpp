@@ -30,14 +30,16 @@ class FlatView {
     [[nodiscard]] T area() const noexcept { return area_; }
 
     // u in [0,1]^2. Triangles by the square-root map (Turk 1990), which folds nothing and so keeps strata together.
-    [[nodiscard]] SurfaceSample<T> sample(glm::vec<2, T> u) const noexcept {
-        T s = u.x, t = u.y;
+    template <RealOf<T> R = T>
+    [[nodiscard]] SurfaceSample<R> sample(glm::vec<2, R> u) const noexcept {
+        R s = u.x, t = u.y;
         if constexpr (is_triangle) {
-            const T root = std::sqrt(u.x);
+            const R root = real::sqrt(u.x);
             s = root * (1 - u.y);
             t = root * u.y;
         }
-        return {scale_ * (corner_ + s * edge_u_ + t * edge_v_), height_};
+        using Vector = glm::vec<3, R>;
+        return {R(scale_) * (Vector(corner_) + s * Vector(edge_u_) + t * Vector(edge_v_)), height_};
     }
 
     // The vertex all edges start from, relative to the reference point, and the edges; in units of the longest edge.
@@ -49,7 +51,10 @@ class FlatView {
     [[nodiscard]] bool edge_on() const noexcept { return !(std::abs(height_) > 0); }
 
     // To the plane.
-    [[nodiscard]] T distance_along(const Direction<T>& w) const noexcept { return height_ / glm::dot(w, normal_); }
+    template <RealOf<T> R = T>
+    [[nodiscard]] R distance_along(const Direction<R>& w) const noexcept {
+        return height_ / glm::dot(w, Direction<R>(normal_));
+    }
 
     // The u that sample maps to the point that w meets.
     [[nodiscard]] glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
@@ -64,16 +69,16 @@ class FlatView {
 
     // w: unit. By triple products (Moller and Trumbore 1997). The edges give way by the rounding of w, so that a
     // direction drawn to a point on an edge meets it.
-    [[nodiscard]] SurfaceHit<T> intersect(const Direction<T>& w) const noexcept {
-        const T cos_light = glm::dot(w, normal_);
-        const T distance = height_ / cos_light;
-        const T determinant = cos_light * unit_area_;
-        const T s = glm::dot(w, across_u_) / determinant, slack_s = rounding_u_ / std::abs(determinant);
-        const T t = glm::dot(w, across_v_) / determinant, slack_t = rounding_v_ / std::abs(determinant);
-        const bool below_far_edges =
+    template <RealOf<T> R = T>
+    [[nodiscard]] SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
+        const R cos_light = glm::dot(w, Direction<R>(normal_));
+        const R distance = height_ / cos_light;
+        const R scale = 1 / (cos_light * unit_area_), precision = real::abs(scale);
+        const R s = glm::dot(w, Direction<R>(across_u_)) * scale, slack_s = rounding_u_ * precision;
+        const R t = glm::dot(w, Direction<R>(across_v_)) * scale, slack_t = rounding_v_ * precision;
+        const auto below_far_edges =
             is_triangle ? s + t <= 1 + slack_s + slack_t : s <= 1 + slack_s && t <= 1 + slack_t;
-        if (!(distance > 0 && s >= -slack_s && t >= -slack_t && below_far_edges)) return {};
-        return {distance, cos_light};
+        return hit_if(distance > 0 && s >= -slack_s && t >= -slack_t && below_far_edges, distance, cos_light);
     }
 
   private:

@@ -25,48 +25,58 @@ class Ggx {
   public:
     // Roughness along x and y.
     explicit Ggx(glm::vec<2, T> alpha) noexcept : alpha_{in_range(alpha.x), in_range(alpha.y)} {
-        if (!(alpha_.x * alpha_.y > 0)) alpha_ = {T(0), T(0)};
+        if (alpha_.x * alpha_.y > 0) {
+            inverse_alpha_ = T(1) / alpha_;
+        } else {
+            alpha_ = {T(0), T(0)};
+        }
     }
 
     // After raising; (0, 0) if out of range.
     [[nodiscard]] const glm::vec<2, T>& alpha() const noexcept { return alpha_; }
 
     // Density of normals per unit of projected area and solid angle: integral of D(wm) wm.z is 1. Heitz 2014, eq. 85.
-    [[nodiscard]] T D(const Direction<T>& wm) const noexcept {
-        const T x = wm.x / alpha_.x, y = wm.y / alpha_.y;
-        const T s = x * x + y * y + wm.z * wm.z;
-        const T d = std::numbers::inv_pi_v<T> / (alpha_.x * alpha_.y * s * s);
-        return wm.z > 0 ? density_or_zero(d) : T(0);
+    // wm may have any length, which cancels: a half vector need not be normalised.
+    template <RealOf<T> R = T>
+    [[nodiscard]] R D(const Direction<R>& wm) const noexcept {
+        const R x = wm.x * inverse_alpha_.x, y = wm.y * inverse_alpha_.y;
+        const R shrinkage = glm::dot(wm, wm) / (x * x + y * y + wm.z * wm.z);
+        const T peak = std::numbers::inv_pi_v<T> * inverse_alpha_.x * inverse_alpha_.y;
+        return real::select(wm.z > 0, peak * shrinkage * shrinkage, 0);
     }
 
     // Length of w stretched by the roughness: (alpha.x w.x, alpha.y w.y, w.z). All of Smith's terms follow from it.
-    [[nodiscard]] T stretched_length(const Direction<T>& w) const noexcept {
-        const T x = alpha_.x * w.x, y = alpha_.y * w.y;
-        return std::sqrt(x * x + y * y + w.z * w.z);
+    template <RealOf<T> R = T>
+    [[nodiscard]] R stretched_length(const Direction<R>& w) const noexcept {
+        const R x = alpha_.x * w.x, y = alpha_.y * w.y;
+        return real::sqrt(R(x * x + y * y + w.z * w.z));
     }
 
     // Smith's Lambda, of |w.z|; infinite at grazing. The textbook (-1 + sqrt(1 + a^2 tan^2)) / 2 loses all digits for
     // a tan(theta) < 2e-4 in float.
-    [[nodiscard]] T lambda(const Direction<T>& w) const noexcept {
-        const T x = alpha_.x * w.x, y = alpha_.y * w.y, z = std::abs(w.z);
-        const T slope = x * x + y * y;
-        return slope > 0 ? slope / (2 * z * (z + std::sqrt(slope + z * z))) : T(0);
+    template <RealOf<T> R = T>
+    [[nodiscard]] R lambda(const Direction<R>& w) const noexcept {
+        const R x = alpha_.x * w.x, y = alpha_.y * w.y, z = real::abs(w.z);
+        const R slope = x * x + y * y;
+        return real::select(slope > 0, slope / (2 * z * (z + real::sqrt(R(slope + z * z)))), 0);
     }
 
     // Fraction of a microfacet's area visible from w, 1 / (1 + Lambda); 0 from below. Heitz 2014, eq. 43.
-    [[nodiscard]] T G1(const Direction<T>& w) const noexcept {
-        return w.z > 0 && valid() ? 2 * w.z / (w.z + stretched_length(w)) : T(0);
+    template <RealOf<T> R = T>
+    [[nodiscard]] R G1(const Direction<R>& w) const noexcept {
+        return real::select(w.z > 0 && valid(), 2 * w.z / (w.z + stretched_length(w)), 0);
     }
 
     // 1 / (1 + Lambda(wo) + Lambda(wi)), height-correlated; 0 from below. Heitz 2014, eq. 99.
-    [[nodiscard]] T G2(const Direction<T>& wo, const Direction<T>& wi) const noexcept {
+    template <RealOf<T> R = T>
+    [[nodiscard]] R G2(const Direction<T>& wo, const Direction<R>& wi) const noexcept {
         return 4 * wo.z * wi.z * visibility(wo, wi);
     }
 
     // Reflected radiance per unit of irradiance, D G2 / (4 cos cos), with Fresnel reflectance 1; 0 from below.
-    [[nodiscard]] T brdf(const Direction<T>& wo, const Direction<T>& wi) const noexcept {
-        const Direction<T> half = wo + wi;
-        return D(half / glm::length(half)) * visibility(wo, wi);
+    template <RealOf<T> R = T>
+    [[nodiscard]] R brdf(const Direction<T>& wo, const Direction<R>& wi) const noexcept {
+        return D<R>(Direction<R>(wo) + wi) * visibility(wo, wi);
     }
 
   private:
@@ -76,12 +86,14 @@ class Ggx {
     [[nodiscard]] bool valid() const noexcept { return alpha_.x > 0; }
 
     // G2 / (4 wo.z wi.z), with the cosines cancelled by hand so that grazing directions divide nothing by 0.
-    [[nodiscard]] T visibility(const Direction<T>& wo, const Direction<T>& wi) const noexcept {
-        if (!(wo.z > 0 && wi.z > 0 && valid())) return T(0);
-        return T(1) / (2 * (wo.z * stretched_length(wi) + wi.z * stretched_length(wo)));
+    template <RealOf<T> R>
+    [[nodiscard]] R visibility(const Direction<T>& wo, const Direction<R>& wi) const noexcept {
+        if (!(wo.z > 0 && valid())) return 0;
+        return real::select(wi.z > 0, T(0.5) / (wo.z * stretched_length(wi) + wi.z * stretched_length(wo)), 0);
     }
 
     glm::vec<2, T> alpha_;
+    glm::vec<2, T> inverse_alpha_{};  // 0 if out of range
 };
 
 }  // namespace lumis

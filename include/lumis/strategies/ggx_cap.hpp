@@ -23,36 +23,43 @@ class GgxCap {
 
     // The cap is z > -(1 - shortfall) wo.z, with wo stretched.
     GgxCap(const Direction<T>& wo, const Ggx<T>& ggx, T shortfall) noexcept
-        : ggx_{ggx},
-          wo_{wo},
-          length_{ggx_.stretched_length(wo)},
-          wo_std_{ggx_.alpha().x * wo.x / length_, ggx_.alpha().y * wo.y / length_, wo.z / length_},
-          shortfall_{shortfall},
-          cap_height_{1 + (1 - shortfall) * wo_std_.z} {}
-
-    // u.x = 0 is the top of the cap, u.y = phi / 2 pi. The half vector's z is kept as a sum of positive products: the
-    // textbook's cancels at grazing incidence.
-    [[nodiscard]] Sample<Point, T> sample(glm::vec<2, T> u) const noexcept {
-        if (!(wo_.z > 0)) return {};
-        const Direction<T> reflected = direction_at(u.x * cap_height_, u.y);
-        const Direction<T> normal{ggx_.alpha().x * (reflected.x + wo_std_.x),
-                                  ggx_.alpha().y * (reflected.y + wo_std_.y),
-                                  (1 - u.x) * cap_height_ + shortfall_ * wo_std_.z};
-        const T length = glm::length(normal);
-        if (!(length > 0)) return {};
-        const Point wm = normal / length;
-        return {wm, pdf(wm)};
+        : ggx_{ggx}, wo_{above_horizon_or_zero(wo)} {
+        const T length = ggx_.stretched_length(wo_);
+        if (!is_squared_length(length * length)) return;
+        wo_std_ = {ggx_.alpha().x * wo_.x / length, ggx_.alpha().y * wo_.y / length, wo_.z / length};
+        shortfall_ = shortfall;
+        cap_height_ = 1 + (1 - shortfall) * wo_std_.z;
+        masking_ = 2 / ((1 - shortfall) * wo_.z + length);
     }
 
-    // G1(wo) / wo.z is 2 / (wo.z + stretched length), which is finite at grazing.
-    [[nodiscard]] T pdf(const Point& wm) const noexcept {
-        const T cos_om = glm::dot(wo_, wm);
-        return cos_om > 0 ? density_or_zero(cos_om * pdf_per_cosine(wm)) : T(0);
+    // u.x = 0 is the top of the cap, u.y = phi / 2 pi.
+    template <RealOf<T> R = T>
+    [[nodiscard]] Sample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+        const Direction<R> normal = along_normal(u);
+        const R length = glm::length(normal);
+        Sample<Direction<R>, R> drawn{normal / real::select(length > 0, length, 1)};
+        drawn.pdf = pdf(drawn.value);
+        return drawn;
     }
 
-    // pdf(wm) / wo.wm, of normals that wo sees: what is left of it after reflection.
-    [[nodiscard]] T pdf_per_cosine(const Point& wm) const noexcept {
-        return wo_.z > 0 ? density_or_zero(2 * ggx_.D(wm) / ((1 - shortfall_) * wo_.z + length_)) : T(0);
+    // Of what is drawn, a vector of any length, for those who need no unit one. Its z is kept as a sum of positive
+    // products: the textbook's cancels at grazing incidence.
+    template <RealOf<T> R = T>
+    [[nodiscard]] Direction<R> along_normal(glm::vec<2, R> u) const noexcept {
+        const Direction<R> reflected = direction_at(R(u.x * cap_height_), u.y);
+        return {ggx_.alpha().x * (reflected.x + wo_std_.x), ggx_.alpha().y * (reflected.y + wo_std_.y),
+                (1 - u.x) * cap_height_ + shortfall_ * wo_std_.z};
+    }
+
+    template <RealOf<T> R = T>
+    [[nodiscard]] R pdf(const Direction<R>& wm) const noexcept {
+        return density_or_zero(R(glm::dot(Direction<R>(wo_), wm) * pdf_per_cosine(wm)));
+    }
+
+    // pdf(wm) / wo.wm, of normals that wo sees: what is left of it after reflection. wm may have any length.
+    template <RealOf<T> R = T>
+    [[nodiscard]] R pdf_per_cosine(const Direction<R>& wm) const noexcept {
+        return masking_ * ggx_.D(wm);
     }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& wm) const noexcept {
@@ -67,10 +74,10 @@ class GgxCap {
   private:
     Ggx<T> ggx_;
     Direction<T> wo_;
-    T length_;             // of wo stretched by alpha
-    Direction<T> wo_std_;  // wo stretched by alpha, unit
-    T shortfall_;
-    T cap_height_;
+    Direction<T> wo_std_{};  // wo stretched by alpha, unit
+    T shortfall_{};
+    T cap_height_{1};
+    T masking_{};  // G1(wo) / wo.z, which is finite at grazing; 0 on and below the horizon
 };
 
 }  // namespace lumis::detail

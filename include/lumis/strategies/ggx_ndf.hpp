@@ -8,7 +8,6 @@
 
 #include <glm/geometric.hpp>
 
-#include <cmath>
 #include <concepts>
 
 namespace lumis {
@@ -26,18 +25,22 @@ class GgxNdf {
 
     // At roughness 1 the normals are cosine distributed; stretching them gives the rest. The textbook's
     // tan(theta) = alpha sqrt(u / (1 - u)) divides by 0 at u = 1. u.y = phi / 2 pi before stretching.
-    [[nodiscard]] Sample<Point, T> sample(glm::vec<2, T> u) const noexcept {
-        const T radius = std::sqrt(u.x);
+    template <RealOf<T> R = T>
+    [[nodiscard]] Sample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+        const R radius = real::sqrt(u.x);
         const auto circle = unit_circle(u.y);
-        const Direction<T> normal{ggx_.alpha().x * radius * circle.x, ggx_.alpha().y * radius * circle.y,
-                                  std::sqrt(1 - u.x)};
-        const T length = glm::length(normal);
-        if (!(length > 0)) return {};
-        const Point wm = normal / length;
-        return {wm, pdf(wm)};
+        const Direction<R> normal{ggx_.alpha().x * radius * circle.x, ggx_.alpha().y * radius * circle.y,
+                                  real::sqrt(R(1 - u.x))};
+        const R length = glm::length(normal);
+        Sample<Direction<R>, R> drawn{normal / real::select(length > 0, length, 1)};
+        drawn.pdf = pdf(drawn.value);
+        return drawn;
     }
 
-    [[nodiscard]] T pdf(const Point& wm) const noexcept { return density_or_zero(ggx_.D(wm) * wm.z); }
+    template <RealOf<T> R = T>
+    [[nodiscard]] R pdf(const Direction<R>& wm) const noexcept {
+        return density_or_zero(R(ggx_.D(wm) * wm.z));
+    }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& wm) const noexcept {
         const T x = wm.x / ggx_.alpha().x, y = wm.y / ggx_.alpha().y;

@@ -17,12 +17,16 @@ class PerfectReflection {
     // wo: unit; on or below the horizon nothing is drawn.
     constexpr explicit PerfectReflection(const Direction<T>& wo) noexcept : wo_{wo} {}
 
-    [[nodiscard]] constexpr Sample<Point, T> sample(glm::vec<2, T>) const noexcept {
-        if (!(wo_.z > 0 && all_finite(wo_))) return {};
+    template <RealOf<T> R = T>
+    [[nodiscard]] constexpr Sample<Direction<R>, R> sample(glm::vec<2, R>) const noexcept {
+        if (!(wo_.z > 0 && all_finite(wo_))) return {Direction<R>{T(0)}, T(0)};
         return {{-wo_.x, -wo_.y, wo_.z}, T(1)};
     }
 
-    [[nodiscard]] constexpr T pdf(const Point&) const noexcept { return 0; }
+    template <RealOf<T> R = T>
+    [[nodiscard]] constexpr R pdf(const Direction<R>&) const noexcept {
+        return T(0);
+    }
 
   private:
     Direction<T> wo_;

@@ -21,12 +21,16 @@ class PointLight {
         : distance_{glm::length(position - reference_point)}, direction_{(position - reference_point) / distance_} {}
 
     // At distance 0, and one whose square is out of range, nothing is drawn.
-    [[nodiscard]] LightSample<Point, T> sample(glm::vec<2, T>) const noexcept {
+    template <RealOf<T> R = T>
+    [[nodiscard]] LightSample<Direction<R>, R> sample(glm::vec<2, R>) const noexcept {
         if (!is_squared_length(distance_ * distance_)) return {};
-        return {direction_, T(1), distance_};
+        return {Direction<R>(direction_), T(1), distance_};
     }
 
-    [[nodiscard]] T pdf(const Point&) const noexcept { return 0; }
+    template <RealOf<T> R = T>
+    [[nodiscard]] R pdf(const Direction<R>&) const noexcept {
+        return T(0);
+    }
 
   private:
     T distance_;

@@ -43,23 +43,27 @@ class SphereView {
 
     [[nodiscard]] T solid_angle() const noexcept { return 2 * std::numbers::pi_v<T> * versine_; }
 
-    [[nodiscard]] SurfaceSample<T> sample(glm::vec<2, T> u) const noexcept {
-        const Direction<T> normal = direction_at(2 * u.x, u.y);
-        const glm::vec<3, T> position = center_ + radius_ * normal;
-        const T towards = -glm::dot(position, normal);
-        return {position, inside_ ? towards : std::max(towards, T(0))};
+    template <RealOf<T> R = T>
+    [[nodiscard]] SurfaceSample<R> sample(glm::vec<2, R> u) const noexcept {
+        const Direction<R> normal = direction_at(R(2 * u.x), u.y);
+        SurfaceSample<R> drawn{glm::vec<3, R>(center_) + R(radius_) * normal};
+        const R towards = -glm::dot(drawn.position, normal);
+        drawn.cos_times_distance = inside_ ? towards : real::max(towards, 0);
+        return drawn;
     }
 
+    template <Real R>
     struct Ray {
-        Direction<T> direction;
-        T distance;
+        Direction<R> direction;
+        R distance;
     };
 
     // Evenly over the cone; u.x = 0 is its axis. Its height, 1 - cos of its half-angle, is formed as sin^2 / (1 + cos):
     // the textbook difference is wrong by 291 % at 0.01 degree in float.
-    [[nodiscard]] Ray direction(glm::vec<2, T> u) const noexcept {
-        const T versine = u.x * versine_;
-        const Direction<T> local = direction_at(versine, u.y);
+    template <RealOf<T> R = T>
+    [[nodiscard]] Ray<R> direction(glm::vec<2, R> u) const noexcept {
+        const R versine = u.x * versine_;
+        const Direction<R> local = direction_at(versine, u.y);
         return {axis_.to_world(local), distance_along(distance_ * local.z, distance_ * sine_of_versine(versine))};
     }
 
@@ -72,16 +76,18 @@ class SphereView {
 
     // Whether w points at the sphere. The chord between w and the axis keeps its digits where their cosine has none;
     // it gives way by the rounding of w, so that a direction drawn at the rim is found on the sphere.
-    [[nodiscard]] bool contains(const Direction<T>& w) const noexcept {
-        return inside_ || glm::length(w - axis_.normal()) <= chord_;
+    template <RealOf<T> R = T>
+    [[nodiscard]] MaskOf<R> contains(const Direction<R>& w) const noexcept {
+        return inside_ || glm::length(w - Direction<R>(axis_.normal())) <= chord_;
     }
 
-    [[nodiscard]] SurfaceHit<T> intersect(const Direction<T>& w) const noexcept {
-        const T along = glm::dot(center_, w);
-        const T across = glm::length(center_ - along * w);
-        if (!(inside_ || (along > 0 && contains(w)))) return {};
-        const T half_chord = half_chord_at(across);
-        return {distance_along(along, across), half_chord / radius_};
+    template <RealOf<T> R = T>
+    [[nodiscard]] SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
+        const glm::vec<3, R> center{center_};
+        const R along = glm::dot(center, w);
+        const R across = glm::length(center - along * w);
+        return hit_if(inside_ || (along > 0 && contains(w)), distance_along(along, across),
+                      half_chord_at(across) / radius_);
     }
 
   private:
@@ -94,14 +100,16 @@ class SphereView {
     }
 
     // Half the length of the chord that a line cuts out of the sphere when it passes its centre at a distance `across`.
-    [[nodiscard]] T half_chord_at(T across) const noexcept {
-        return std::sqrt(std::max((radius_ - across) * (radius_ + across), T(0)));
+    template <Real R>
+    [[nodiscard]] R half_chord_at(R across) const noexcept {
+        return real::sqrt(real::max(R((radius_ - across) * (radius_ + across)), 0));
     }
 
     // To the first point on the sphere ahead, for a ray whose closest approach to the centre is `along` ahead and
     // `across` aside. From outside, along - half chord would cancel; the product of both roots does not.
-    [[nodiscard]] T distance_along(T along, T across) const noexcept {
-        const T far_root = along + half_chord_at(across);
+    template <Real R>
+    [[nodiscard]] R distance_along(R along, R across) const noexcept {
+        const R far_root = along + half_chord_at(across);
         return inside_ ? far_root : tangent_squared_ / far_root;
     }
 

@@ -2,6 +2,7 @@
 // Urena, Fajardo and King 2013, "An Area-Preserving Parametrization for Spherical Rectangles".
 #pragma once
 
+#include "lumis/core/elementary.hpp"
 #include "lumis/core/frame.hpp"
 #include "lumis/core/sample.hpp"
 
@@ -44,18 +45,19 @@ class SphericalRectangle {
     [[nodiscard]] T solid_angle() const noexcept { return solid_angle_; }
 
     // Relative to the reference point, on the rectangle. u.x goes along the first edge, u.y along the second.
-    [[nodiscard]] glm::vec<3, T> sample(glm::vec<2, T> u) const noexcept {
-        const T a = u.x * solid_angle_ + k_;
-        const T f = (std::cos(a) * b0_ - b1_) / std::sin(a);
+    template <RealOf<T> R = T>
+    [[nodiscard]] glm::vec<3, R> sample(glm::vec<2, R> u) const noexcept {
+        const auto a = unit_circle(R((u.x * solid_angle_ + k_) * (std::numbers::inv_pi_v<T> / 2)));
+        const R f = (a.x * b0_ - b1_) / a.y;
         // f^2 + b0^2 - 1, with 1 - b0^2 formed as a square.
         const T z_share = near_.z / length(near_.y, near_.z);
-        const T below = std::max((f - z_share) * (f + z_share), T(0));
-        const T x = std::clamp(std::copysign(near_.z / std::sqrt(below), f), near_.x, far_.x);
-        const T d = length(x, near_.z);
-        const T h0 = near_.y / length(d, near_.y), h1 = far_.y / length(d, far_.y);
-        const T h = h0 + u.y * (h1 - h0);
-        const T y = std::clamp(h * d / std::sqrt((1 - h) * (1 + h)), near_.y, far_.y);
-        return frame_.to_world({x, y, near_.z});
+        const R below = real::max(R((f - z_share) * (f + z_share)), 0);
+        const R x = real::clamp(real::copysign(R(near_.z / real::sqrt(below)), f), near_.x, far_.x);
+        const R d = length(x, R(near_.z));
+        const R h0 = near_.y / length(d, R(near_.y)), h1 = far_.y / length(d, R(far_.y));
+        const R h = h0 + u.y * (h1 - h0);
+        const R y = real::clamp(R(h * d / real::sqrt(R((1 - h) * (1 + h)))), near_.y, far_.y);
+        return frame_.to_world(glm::vec<3, R>{x, y, near_.z});
     }
 
     // position: relative to the reference point, on the rectangle or towards it.
@@ -69,7 +71,10 @@ class SphericalRectangle {
     }
 
   private:
-    static T length(T x, T y) noexcept { return std::sqrt(x * x + y * y); }
+    template <Real R>
+    static R length(R x, R y) noexcept {
+        return real::sqrt(R(x * x + y * y));
+    }
 
     // acos(cosine / (|(x, z)| |(y, z)|)), by its tangent.
     [[nodiscard]] T angle(T cosine, T x, T y) const noexcept {

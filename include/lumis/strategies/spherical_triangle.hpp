@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <numbers>
 
 namespace lumis {
 
@@ -54,24 +55,31 @@ class SphericalTriangle {
     [[nodiscard]] T solid_angle() const noexcept { return solid_angle_; }
 
     // u.x cuts off a share of the solid angle by an arc from a to the edge bc; u.y goes along that arc.
-    [[nodiscard]] Direction<T> sample(glm::vec<2, T> u) const noexcept {
-        const T half = u.x * solid_angle_ / 2;
-        const T sine = std::sin(half), cosine = std::cos(half);
+    template <RealOf<T> R = T>
+    [[nodiscard]] Direction<R> sample(glm::vec<2, R> u) const noexcept {
+        using Vector = glm::vec<3, R>;
+        const Vector a{a_};
+        // Of half the solid angle to be cut off, from those of half of that.
+        const auto quarter = half_circle(R(u.x * (solid_angle_ / (8 * std::numbers::pi_v<T>))));
+        const R sine = 2 * quarter.x * quarter.y, cosine = (quarter.x - quarter.y) * (quarter.x + quarter.y);
         // q on the arc bc such that the triangle a, b, q has the wanted solid angle; t: tan of half the angle from b.
-        const glm::vec<3, T> aq = to(up_to_c(sine * g1_, cosine * g0_ - sine * g2_));
+        const Vector aq = to(up_to_c(R(sine * g1_), R(cosine * g0_ - sine * g2_)));
         // From a towards q: 1 - cos is uniform.
-        const T full = std::min(glm::dot(aq, aq) / 2, T(2));
-        const T part = u.y * full;
-        glm::vec<3, T> across = aq + a_ * full;
-        across -= a_ * glm::dot(a_, across);  // once more, for q nearly opposite to a,
-        across -= a_ * glm::dot(a_, across);  // and again, for what is left of it then
-        const T length = glm::length(across);
-        if (!is_squared_length(length * length)) return a_;
-        if (part <= 1) return a_ * (1 - part) + across * (sine_of_versine(part) / length);
-        // In terms of 1 + cos: for q nearly opposite to a, 2 - part has no digits.
-        const glm::vec<3, T> sum = aq + T(2) * a_;
-        const T rest = glm::dot(sum, sum) / 2 + (1 - u.y) * full;
-        return a_ * (rest - 1) + across * (sine_of_versine(rest) / length);
+        const R full = real::min(R(glm::dot(aq, aq) / 2), 2);
+        const R part = u.y * full;
+        Vector across = aq + a * full;
+        across = across - a * glm::dot(a, across);  // once more, for q nearly opposite to a,
+        across = across - a * glm::dot(a, across);  // and again, for what is left of it then
+        const R squared = glm::dot(across, across);
+        R versine = part, cos_theta = 1 - part;
+        if (!real::all(part <= 1)) {
+            // In terms of 1 + cos: for q nearly opposite to a, 2 - part has no digits.
+            const Vector sum = aq + R(2) * a;
+            versine = real::select(part <= 1, part, glm::dot(sum, sum) / 2 + (1 - u.y) * full);
+            cos_theta = real::select(part <= 1, cos_theta, versine - 1);
+        }
+        const Vector w = a * cos_theta + across * (sine_of_versine(versine) / real::sqrt(squared));
+        return real::select(is_squared_length(squared), w, a);
     }
 
     [[nodiscard]] glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
@@ -89,14 +97,17 @@ class SphericalTriangle {
 
   private:
     // sine / cosine, a tangent of half an angle from b, but not beyond c, whither rounding may lead.
-    [[nodiscard]] T up_to_c(T sine, T cosine) const noexcept {
-        return sine * half_bc_.x < cosine * half_bc_.y ? sine / cosine : half_bc_.y / half_bc_.x;
+    template <Real R>
+    [[nodiscard]] R up_to_c(R sine, R cosine) const noexcept {
+        return real::select(sine * half_bc_.x < cosine * half_bc_.y, sine / cosine, half_bc_.y / half_bc_.x);
     }
 
     // From a to the point of the arc bc at an angle from b, given the tangent of half that angle.
-    [[nodiscard]] glm::vec<3, T> to(T t) const noexcept {
-        const T versine = 2 * t * t / (1 + t * t);
-        return ab_ + tangent_ * (2 * t / (1 + t * t)) - b_ * versine;
+    template <Real R>
+    [[nodiscard]] glm::vec<3, R> to(R t) const noexcept {
+        using Vector = glm::vec<3, R>;
+        const R sine = 2 * t / (1 + t * t);
+        return Vector(ab_) + Vector(tangent_) * sine - Vector(b_) * (t * sine);
     }
 
     // q / |q| - p / |p| from q - p without cancellation.

@@ -9,17 +9,23 @@
 namespace lumis {
 
 // A point relative to the reference point, and the cosine at the light times its distance; 0: edge-on, or hidden.
-template <std::floating_point T>
+template <Real R>
 struct SurfaceSample {
-    glm::vec<3, T> position{};
-    T cos_times_distance{};
+    glm::vec<3, R> position{};
+    R cos_times_distance{};
 };
 
 // Where a ray from the reference point meets the surface, and the cosine to its normal there; distance 0: nowhere.
-template <std::floating_point T>
+template <Real R>
 struct SurfaceHit {
-    T distance{};
-    T cos_light{};
+    R distance{};
+    R cos_light{};
 };
+
+// The hit where there is one, nowhere elsewhere.
+template <Real R>
+[[nodiscard]] SurfaceHit<R> hit_if(const MaskOf<R>& met, R distance, std::type_identity_t<R> cos_light) noexcept {
+    return {real::select(met, distance, 0), real::select(met, cos_light, 0)};
+}
 
 }  // namespace lumis

@@ -18,12 +18,17 @@ struct UniformHemisphere {
     static constexpr int dimensions = 2;
 
     // u.x = 1 - cos(theta), u.y = phi / 2 pi; u.x == 1 draws nothing.
-    [[nodiscard]] Sample<Point, T> sample(glm::vec<2, T> u) const noexcept {
-        const Point w = direction_at(u.x, u.y);
-        return {w, pdf(w)};
+    template <RealOf<T> R = T>
+    [[nodiscard]] Sample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+        Sample<Direction<R>, R> drawn{direction_at(u.x, u.y)};
+        drawn.pdf = pdf(drawn.value);
+        return drawn;
     }
 
-    [[nodiscard]] T pdf(const Point& w) const noexcept { return w.z > 0 ? std::numbers::inv_pi_v<T> / 2 : T(0); }
+    template <RealOf<T> R = T>
+    [[nodiscard]] R pdf(const Direction<R>& w) const noexcept {
+        return real::select(w.z > 0, R(std::numbers::inv_pi_v<T> / 2), 0);
+    }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept { return {versine_of(w), turn_of(w.x, w.y)}; }
 };

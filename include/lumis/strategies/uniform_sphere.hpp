@@ -17,12 +17,15 @@ struct UniformSphere {
     static constexpr int dimensions = 2;
 
     // u.x = (1 - cos(theta)) / 2, u.y = phi / 2 pi.
-    [[nodiscard]] Sample<Point, T> sample(glm::vec<2, T> u) const noexcept {
-        const Point w = direction_at(2 * u.x, u.y);
-        return {w, pdf(w)};
+    template <RealOf<T> R = T>
+    [[nodiscard]] Sample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+        return {direction_at(R(2 * u.x), u.y), std::numbers::inv_pi_v<T> / 4};
     }
 
-    [[nodiscard]] T pdf(const Point& /*w*/) const noexcept { return std::numbers::inv_pi_v<T> / 4; }
+    template <RealOf<T> R = T>
+    [[nodiscard]] R pdf(const Direction<R>& /*w*/) const noexcept {
+        return std::numbers::inv_pi_v<T> / 4;
+    }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept {
         return {versine_of(w) / 2, turn_of(w.x, w.y)};

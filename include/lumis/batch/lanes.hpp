@@ -1,0 +1,151 @@
+// Several floating-point numbers that are worked on at once: a thin type over compiler vectors, which g++ and clang++
+// turn into the machine's vector instructions from -O2 on, without flags of their own. Lanes<T, N> is a Real, and
+// glm::vec<3, Lanes<T, N>> is N directions.
+#pragma once
+
+#include "lumis/core/real.hpp"
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#ifndef __GNUC__
+#error "lumis/batch is written in the vector extensions of g++ and clang++"
+#endif
+
+namespace lumis {
+
+namespace detail {
+
+template <class T, std::size_t N>
+struct VectorOf {
+    using type [[gnu::vector_size(N * sizeof(T))]] = T;
+};
+
+}  // namespace detail
+
+// A truth for each lane: an integer with all of its bits set, or none.
+template <std::signed_integral Bits, std::size_t N>
+class LaneMask {
+  public:
+    using Vector = typename detail::VectorOf<Bits, N>::type;
+
+    LaneMask() = default;
+    [[gnu::always_inline]] LaneMask(bool everywhere) noexcept : v_{Vector{} - Bits{everywhere}} {}
+    [[gnu::always_inline]] explicit LaneMask(Vector v) noexcept : v_{v} {}
+
+    [[gnu::always_inline]] friend LaneMask operator&&(LaneMask a, LaneMask b) noexcept { return LaneMask{a.v_ & b.v_}; }
+    [[gnu::always_inline]] friend LaneMask operator||(LaneMask a, LaneMask b) noexcept { return LaneMask{a.v_ | b.v_}; }
+    [[gnu::always_inline]] friend LaneMask operator!(LaneMask a) noexcept { return LaneMask{~a.v_}; }
+
+    [[nodiscard, gnu::always_inline]] bool all() const noexcept {
+        Bits every = v_[0];
+        for (std::size_t i = 1; i < N; ++i) every &= v_[i];
+        return every != 0;
+    }
+    [[nodiscard, gnu::always_inline]] Vector vector() const noexcept { return v_; }
+
+  private:
+    Vector v_;
+};
+
+template <std::floating_point T, std::size_t N>
+class Lanes {
+    using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+    using BitVector = typename detail::VectorOf<Bits, N>::type;
+
+  public:
+    using Lane = T;
+    using Vector = typename detail::VectorOf<T, N>::type;
+    using Mask = LaneMask<Bits, N>;
+    static constexpr std::size_t size = N;
+
+    Lanes() = default;
+    // x in every lane. (0 is taken off because it changes no x, -0 included.)
+    [[gnu::always_inline]] Lanes(T x) noexcept : v_{x - Vector{}} {}
+    [[gnu::always_inline]] explicit Lanes(Vector v) noexcept : v_{v} {}
+
+    [[nodiscard, gnu::always_inline]] static Lanes load(const T* from) noexcept {
+        Lanes result;
+        std::memcpy(&result.v_, from, sizeof(Vector));
+        return result;
+    }
+    [[gnu::always_inline]] void store(T* to) const noexcept { std::memcpy(to, &v_, sizeof(Vector)); }
+
+    [[nodiscard, gnu::always_inline]] T operator[](std::size_t i) const noexcept { return v_[i]; }
+    [[gnu::always_inline]] void set(std::size_t i, T x) noexcept { v_[i] = x; }
+
+    [[gnu::always_inline]] friend Lanes operator+(Lanes a, Lanes b) noexcept { return Lanes{a.v_ + b.v_}; }
+    [[gnu::always_inline]] friend Lanes operator-(Lanes a, Lanes b) noexcept { return Lanes{a.v_ - b.v_}; }
+    [[gnu::always_inline]] friend Lanes operator*(Lanes a, Lanes b) noexcept { return Lanes{a.v_ * b.v_}; }
+    [[gnu::always_inline]] friend Lanes operator/(Lanes a, Lanes b) noexcept { return Lanes{a.v_ / b.v_}; }
+    [[gnu::always_inline]] friend Lanes operator-(Lanes a) noexcept { return Lanes{-a.v_}; }
+    [[gnu::always_inline]] Lanes& operator+=(Lanes b) noexcept { return *this = *this + b; }
+    [[gnu::always_inline]] Lanes& operator-=(Lanes b) noexcept { return *this = *this - b; }
+    [[gnu::always_inline]] Lanes& operator*=(Lanes b) noexcept { return *this = *this * b; }
+    [[gnu::always_inline]] Lanes& operator/=(Lanes b) noexcept { return *this = *this / b; }
+
+    [[gnu::always_inline]] friend Mask operator<(Lanes a, Lanes b) noexcept { return mask(a.v_ < b.v_); }
+    [[gnu::always_inline]] friend Mask operator<=(Lanes a, Lanes b) noexcept { return mask(a.v_ <= b.v_); }
+    [[gnu::always_inline]] friend Mask operator>(Lanes a, Lanes b) noexcept { return mask(a.v_ > b.v_); }
+    [[gnu::always_inline]] friend Mask operator>=(Lanes a, Lanes b) noexcept { return mask(a.v_ >= b.v_); }
+    [[gnu::always_inline]] friend Mask operator==(Lanes a, Lanes b) noexcept { return mask(a.v_ == b.v_); }
+
+    [[gnu::always_inline]] friend Lanes sqrt(Lanes x) noexcept { return Lanes{square_roots(x.v_)}; }
+    [[gnu::always_inline]] friend Lanes abs(Lanes x) noexcept { return of(bits(x) & ~sign_bit()); }
+    [[gnu::always_inline]] friend Lanes copysign(Lanes magnitude, Lanes sign) noexcept {
+        return of((bits(magnitude) & ~sign_bit()) | (bits(sign) & sign_bit()));
+    }
+    [[nodiscard, gnu::always_inline]] static Lanes mul_add(Lanes a, Lanes b, Lanes c) noexcept {
+        return Lanes{a.v_ * b.v_ + c.v_};
+    }
+    [[nodiscard, gnu::always_inline]] static Lanes select(Mask condition, Lanes a, Lanes b) noexcept {
+        return Lanes{condition.vector() ? a.v_ : b.v_};
+    }
+
+  private:
+    [[gnu::always_inline]] static Mask mask(auto comparison) noexcept {
+        return Mask{reinterpret_cast<BitVector>(comparison)};
+    }
+    [[gnu::always_inline]] static BitVector bits(Lanes x) noexcept { return reinterpret_cast<BitVector>(x.v_); }
+    [[gnu::always_inline]] static Lanes of(BitVector x) noexcept { return Lanes{reinterpret_cast<Vector>(x)}; }
+    [[gnu::always_inline]] static BitVector sign_bit() noexcept {
+        return BitVector{} + std::numeric_limits<Bits>::min();
+    }
+
+    // The compilers have no common way to say this, and none turns a loop of square roots into one instruction while
+    // errno may be asked for.
+    [[gnu::always_inline]] static Vector square_roots(Vector x) noexcept {
+#ifdef __SSE2__
+        if constexpr (std::same_as<T, float> && sizeof(Vector) == 16) return __builtin_ia32_sqrtps(x);
+        if constexpr (std::same_as<T, double> && sizeof(Vector) == 16) return __builtin_ia32_sqrtpd(x);
+#endif
+#ifdef __AVX__
+        if constexpr (std::same_as<T, float> && sizeof(Vector) == 32) return __builtin_ia32_sqrtps256(x);
+        if constexpr (std::same_as<T, double> && sizeof(Vector) == 32) return __builtin_ia32_sqrtpd256(x);
+#endif
+        for (std::size_t i = 0; i < N; ++i) x[i] = std::sqrt(x[i]);
+        return x;
+    }
+
+    Vector v_;
+};
+
+// As many lanes as the machine that is compiled for has in a vector, up to 32 bytes.
+#ifdef __AVX__
+inline constexpr std::size_t vector_bytes = 32;
+#else
+inline constexpr std::size_t vector_bytes = 16;
+#endif
+
+template <std::floating_point T>
+using NativeLanes = Lanes<T, vector_bytes / sizeof(T)>;
+
+}  // namespace lumis
+
+// GLM asks whether its numbers are floating-point ones.
+template <std::floating_point T, std::size_t N>
+class std::numeric_limits<lumis::Lanes<T, N>> : public std::numeric_limits<T> {};

@@ -1,0 +1,127 @@
+// Tables of one size, a row each, drawn by the alias method (Walker 1977) in fixed point: bins and weights are whole
+// numbers of counts (see cumulative_counts.hpp), so that the reported counts are the ones drawn. In constant time, from
+// one bin nearly always, but not monotone: neighbouring uniforms may draw entries far apart, and there is no inverse.
+#pragma once
+
+#include "lumis/strategies/cumulative_counts.hpp"
+
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lumis {
+
+template <class T>
+class AliasRows {
+  public:
+    // `rows` tables of `entries` weights. Keeps 8 bytes a weight.
+    AliasRows(std::size_t entries, std::size_t rows)
+        : entries_{entries},
+          capacity_{static_cast<std::uint32_t>(total_counts<T> / entries)},
+          larger_bins_{static_cast<std::uint32_t>(total_counts<T> % entries)},
+          own_bits_{static_cast<int>(std::bit_width(capacity_ - (larger_bins_ == 0)))},
+          division_shift_{count_bits<T> + static_cast<int>(std::bit_width(entries - 1))},
+          reciprocal_{((std::uint64_t{1} << division_shift_) + entries - 1) / entries},
+          bins_(rows * entries) {}
+
+    [[nodiscard]] std::size_t entries() const noexcept { return entries_; }
+    [[nodiscard]] std::size_t memory_bytes() const noexcept { return bins_.size() * sizeof(Bin); }
+
+    // Sets one row; different rows may be dealt at the same time. Returns the sum of the weights.
+    ScaledSum deal(std::size_t row, std::span<const double> weights) {
+        std::vector<std::uint32_t> counts(entries_ + 1, total_counts<T>);
+        const ScaledSum sum = deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return counts[i]; });
+        for (std::size_t i = 0; i < entries_; ++i) counts[i] = counts[i + 1] - counts[i];
+        fill(bins_.data() + row * entries_, counts);
+        return sum;
+    }
+
+    // u in [0, 1]. An entry of weight 0 is never drawn.
+    [[nodiscard]] DrawnEntry<T> draw(std::size_t row, T u) const noexcept {
+        const auto [count, within] = lattice_point(u);
+        const std::uint64_t scaled = std::uint64_t{count} * entries_;
+        const auto index = static_cast<std::size_t>(scaled >> count_bits<T>);
+        // The count's place in the bin: remainder / entries_, by multiplication (Granlund and Montgomery 1994).
+        const std::uint64_t remainder = scaled & (total_counts<T> - 1);
+        const auto place = static_cast<std::uint32_t>((remainder * reciprocal_) >> division_shift_);
+
+        const Bin* const bins = bins_.data() + row * entries_;
+        const Bin bin = bins[index];
+        const std::uint32_t own = bin.own_and_alias & own_mask();
+        const std::size_t alias = bin.own_and_alias >> own_bits_;
+        const bool is_own = place < own, light = bin.is_light();
+        const std::size_t drawn = is_own ? index : alias;
+        const std::uint32_t heavy_counts = bins[light ? index : drawn].heavy_counts();
+        const std::uint32_t larger = remainder - place * entries_ < larger_bins_;
+        const std::uint32_t begin = is_own ? 0 : own, end = is_own ? own : capacity_ + larger;
+        return {drawn, is_own && light ? own : heavy_counts,
+                (static_cast<T>(place - begin) + within) / static_cast<T>(end - begin)};
+    }
+
+    // The number of counts of an entry.
+    [[nodiscard]] std::uint32_t counts(std::size_t row, std::size_t i) const noexcept {
+        const Bin bin = bins_[row * entries_ + i];
+        return bin.is_light() ? bin.own_and_alias & own_mask() : bin.heavy_counts();
+    }
+
+  private:
+    // A light entry does not fill its bin, and all its counts are there: the first ones. A heavy entry fills up others'
+    // and, with no more than a bin's worth left, leaves the rest of its own to the next heavy one.
+    struct Bin {
+        Bin() noexcept {}
+        Bin(std::uint32_t own_and_alias_, std::uint32_t heavy, bool light) noexcept
+            : own_and_alias{own_and_alias_}, heavy_and_kind{(heavy - 1) | (light ? light_bit : 0)} {}
+
+        static constexpr std::uint32_t light_bit = std::uint32_t{1} << 31;
+        [[nodiscard]] bool is_light() const noexcept { return heavy_and_kind >= light_bit; }
+        [[nodiscard]] std::uint32_t heavy_counts() const noexcept { return (heavy_and_kind & ~light_bit) + 1; }
+
+        std::uint32_t own_and_alias;   // in the low bits, how many of the bin's counts draw its own entry
+        std::uint32_t heavy_and_kind;  // the counts of a heavy entry, of a light one's alias
+    };
+
+    [[nodiscard]] std::uint32_t own_mask() const noexcept { return (std::uint32_t{1} << own_bits_) - 1; }
+
+    [[nodiscard]] std::uint32_t capacity(std::size_t bin) const noexcept {
+        if (larger_bins_ == 0) return capacity_;
+        const auto extra = [&](std::uint64_t i) { return (i * larger_bins_ + entries_ - 1) / entries_; };
+        return capacity_ + static_cast<std::uint32_t>(extra(bin + 1) - extra(bin));
+    }
+
+    // One sweep over light and heavy entries each (Huebschle-Schneider and Sanders 2022, "Parallel Weighted Random
+    // Sampling"), which needs no lists and fills neighbouring bins from the same entry.
+    void fill(Bin* bins, std::span<const std::uint32_t> counts) const noexcept {
+        const auto packed = [&](std::uint32_t own, std::size_t alias) {
+            return static_cast<std::uint32_t>(alias << own_bits_) | own;
+        };
+        const auto next = [&](std::size_t i, bool light) {
+            while (i < entries_ && (counts[i] < capacity(i)) != light) ++i;
+            return i;
+        };
+        std::size_t light = next(0, true), heavy = next(0, false);
+        std::uint32_t left = counts[heavy];  // of the heavy entry
+        while (heavy < entries_) {
+            const std::uint32_t room = capacity(heavy);
+            for (; left > room; light = next(light + 1, true)) {
+                left -= capacity(light) - counts[light];
+                bins[light] = Bin{packed(counts[light], heavy), counts[heavy], true};
+            }
+            const std::size_t other = next(heavy + 1, false);
+            // A full bin is its entry's alias: so many counts of its own do not fit in.
+            bins[heavy] = Bin{left < room ? packed(left, other) : packed(0, heavy), counts[heavy], false};
+            if (other < entries_) left = counts[other] - (room - left);
+            heavy = other;
+        }
+    }
+
+    std::size_t entries_;
+    std::uint32_t capacity_, larger_bins_;  // counts of a bin, of which so many hold one more
+    int own_bits_, division_shift_;
+    std::uint64_t reciprocal_;
+    std::vector<Bin> bins_;
+};
+
+}  // namespace lumis
