@@ -126,6 +126,18 @@ TEMPLATE_TEST_CASE("weights do not change with the scale of the densities", "[he
             }
         }
     });
+    // At every scale on the way there, subnormal squares and overflowing sums among them.
+    for_each_heuristic([](const auto& heuristic) {
+        const std::vector<T> p{1, T(3e-3), T(0.9), T(0.8), T(0.7), T(0.7), 0};
+        const auto w = weights(heuristic, p);
+        constexpr int range = std::numeric_limits<T>::max_exponent;
+        for (int exponent = 12 - range; exponent < range - 1; ++exponent) {
+            auto scaled = p;
+            for (T& density : scaled) density = std::ldexp(density, exponent);
+            const auto v = weights(heuristic, scaled);
+            for (std::size_t i = 0; i < p.size(); ++i) REQUIRE(std::abs(v[i] - w[i]) <= 2 * epsilon<T> * w[i]);
+        }
+    });
     // Squares of these overflow or vanish.
     const T large = std::numeric_limits<T>::max() / 2, small = std::numeric_limits<T>::min();
     CHECK(lumis::mis_weight(lumis::PowerHeuristic{}, large, large) == T(0.5));

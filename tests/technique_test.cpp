@@ -3,6 +3,7 @@
 #include "instrumented.hpp"
 #include "one_dimensional.hpp"
 #include <lumis/combine/in_frame.hpp>
+#include <lumis/combine/light_set.hpp>
 #include <lumis/combine/mixture.hpp>
 #include <lumis/combine/multi_sample.hpp>
 #include <lumis/combine/one_sample.hpp>
@@ -12,10 +13,13 @@
 #include <lumis/strategies/perfect_reflection.hpp>
 #include <lumis/strategies/uniform_hemisphere.hpp>
 
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 using lumis::choose;
 using lumis::take;
@@ -142,6 +146,59 @@ TEST_CASE("a strategy that owns memory is not copied by composing", "[technique]
     CHECK(of_moved.pdf(0.5) == 1);
     CHECK(log.copies == 0);
     CHECK(log.moves > 0);
+}
+
+TEST_CASE("std::cref spares the copy", "[technique]") {
+    const Ramp<double> ramp;
+    const auto multi = lumis::multi_sample(lumis::BalanceHeuristic{}, take(2, std::cref(ramp)), take(1, everywhere));
+    const auto single = lumis::one_sample(lumis::BalanceHeuristic{}, choose(0.5, std::cref(ramp)), choose(0.5, ramp));
+    CHECK(&multi.strategy<0>() == &ramp);
+    CHECK(&single.strategy<0>() == &ramp);
+    CHECK(&single.strategy<1>() != &ramp);
+    CHECK(multi.densities(0.5) == std::array{2.0, 1.0});
+    CHECK(single.densities(0.5) == std::array{0.5, 0.5});
+}
+
+TEST_CASE("what has no share is neither sampled nor evaluated, whatever weighs it", "[technique]") {
+    Calls unused;
+    const Instrumented left_out{Ramp<double>{}, &unused};
+    CountingUniforms<double> uniforms;
+    const auto run = [&](const auto& combined) {
+        for (int i = 0; i < 100; ++i) {
+            REQUIRE(std::abs(combined.estimate([](double) { return 1.0; }, uniforms) - 1) <= 1e-15);
+        }
+        CHECK(combined.densities(0.5) == std::array{0.0, 1.0, 0.0});
+        CHECK(combined.template weight<0>(0.5) == 0);
+        CHECK(combined.template weight<1>(0.5) == 1);
+        CHECK(combined.template weight<2>(0.5) == 0);
+    };
+    const auto both_models = [&](const auto& heuristic) {
+        run(lumis::multi_sample(heuristic, take(0, left_out), take(1, everywhere), take(0, left_out)));
+        run(lumis::one_sample(heuristic, choose(0, left_out), choose(1, everywhere), choose(0, left_out)));
+    };
+    both_models(lumis::BalanceHeuristic{});
+    both_models(lumis::PowerHeuristic{});
+    both_models(lumis::PowerHeuristic{3});
+    both_models(lumis::MaximumHeuristic{});
+    both_models(lumis::CutoffHeuristic{});
+    both_models(lumis::EqualWeights{});
+
+    // The same of a mixture's parts and of a set's lights.
+    Calls lit;
+    const lumis::Mixture mixture{choose(0, left_out), choose(1, everywhere), choose(0, left_out)};
+    const lumis::AreaLight light{lumis::Sphere{glm::vec3{0, 0, 3}, 1.0f}, glm::vec3{0}};
+    const std::vector lights{Instrumented{light, &unused}, Instrumented{light, &lit}, Instrumented{light, &unused}};
+    const lumis::LightSet set{lights, std::vector{0.0f, 2.0f, 0.0f}};
+    for (const double u : {0.0, 0.3, 0.7, 1 - 0x1p-53}) {
+        CHECK(mixture.sample({u, 0.25}).pdf == 1);
+        CHECK(set.sample({static_cast<float>(u), 0.5f, 0.5f}).pdf >= 0);
+        CHECK(set.pdf({0, 0, 1}) > 0);
+    }
+    CHECK(mixture.pdf(0.5) == 1);
+    CHECK(lit.sample == 4);
+    CHECK(lit.pdf >= 4);
+    CHECK(unused.sample == 0);
+    CHECK(unused.pdf == 0);
 }
 
 TEST_CASE("an environment map is held by reference", "[technique]") {

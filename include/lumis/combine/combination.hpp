@@ -38,6 +38,16 @@ template <bool is_delta, class F, class S>
     }
 }
 
+// A number is divided, which rounds once; of anything else no more is asked than that it scales.
+template <class Value, std::floating_point T>
+[[nodiscard]] constexpr auto quotient(const Value& value, T divisor) {
+    if constexpr (std::same_as<Value, T>) {
+        return value / divisor;
+    } else {
+        return value * (1 / divisor);
+    }
+}
+
 template <class S>
 inline constexpr bool is_delta_strategy = DeltaStrategy<std::remove_cvref_t<S>>;
 
@@ -72,9 +82,11 @@ class Combination {
     }
 
   protected:
-    constexpr Combination(const Heuristic& heuristic, std::array<Scalar, size> factors,
-                          std::tuple<First, Rest...> strategies)
-        : heuristic_{heuristic}, factors_{factors}, strategies_{std::move(strategies)} {}
+    // Each strategy is moved once, from the Take or Choose that holds it: some are large, and composing is done at every
+    // point to be lit.
+    template <class... Techniques>
+    constexpr Combination(const Heuristic& heuristic, std::array<Scalar, size> factors, Techniques&&... techniques)
+        : heuristic_{heuristic}, factors_{factors}, strategies_{std::forward<Techniques>(techniques).strategy...} {}
 
     // What one sample of technique I adds to an estimate: its weight times f / (factor_I pdf).
     template <std::size_t I, class F, class U>
@@ -82,13 +94,15 @@ class Combination {
         using S = std::remove_cvref_t<std::tuple_element_t<I, std::tuple<First, Rest...>>>;
         const auto sample = strategy<I>().sample(uniforms.template next<S::dimensions>());
         using Value = decltype(detail::evaluate<is_delta<I>>(f, sample) * Scalar{});
-        if (!(sample.pdf > 0)) return Value{};
         const Scalar own = factors_[I] * sample.pdf;
-        if constexpr (is_delta<I>) {
-            return Value(detail::evaluate<true>(f, sample) * (1 / own));
+        if (!(own > 0)) return Value{};
+        if constexpr (is_delta<I> || number_of_smooth == 1) {
+            return Value(detail::quotient(detail::evaluate<is_delta<I>>(f, sample), own));
         } else {
             const Scalar weight = weight_given<I>(sample.value, [&] { return own; });
-            if (!(weight > 0)) return Value{};
+            if constexpr (!requires { requires Heuristic::is_positive; }) {
+                if (!(weight > 0)) return Value{};
+            }
             return Value(detail::evaluate<false>(f, sample) * (weight / own));
         }
     }
@@ -124,7 +138,7 @@ class Combination {
                     q[k] = density<k>(x);
                 }
             });
-            return heuristic_(I, std::span<const Scalar>{q});
+            return detail::weigh(heuristic_, I, std::span<const Scalar, size>{q});
         }
     }
 

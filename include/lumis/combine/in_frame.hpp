@@ -26,13 +26,22 @@ class InFrame {
     constexpr InFrame(const Frame<Scalar>& frame, HeldStrategy local)
         : frame_{frame}, local_{std::forward<HeldStrategy>(local)} {}
 
-    [[nodiscard]] auto sample(UniformsOf<Local> u) const noexcept {
-        auto sample = local_.sample(u);
-        sample.value = frame_.to_world(sample.value);
-        return all_finite(sample.value) ? sample : decltype(sample){};
+    template <RealOf<Scalar> R = Scalar>
+    [[nodiscard]] auto sample(glm::vec<dimensions, R> u) const noexcept {
+        auto drawn = local_.sample(u);
+        const Direction<R> w = frame_.to_world(drawn.value);
+        const auto finite = all_finite(w);
+        drawn.value.x = real::select(finite, w.x, 0);
+        drawn.value.y = real::select(finite, w.y, 0);
+        drawn.value.z = real::select(finite, w.z, 0);
+        drawn.pdf = real::select(finite, drawn.pdf, 0);
+        return drawn;
     }
 
-    [[nodiscard]] Scalar pdf(const Point& w) const noexcept { return local_.pdf(frame_.to_local(w)); }
+    template <RealOf<Scalar> R = Scalar>
+    [[nodiscard]] R pdf(const Direction<R>& w) const noexcept {
+        return local_.pdf(frame_.to_local(w));
+    }
 
     [[nodiscard]] UniformsOf<Local> invert(const Point& w) const noexcept requires InvertibleStrategy<Local> {
         return local_.invert(frame_.to_local(w));

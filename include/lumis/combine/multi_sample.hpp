@@ -12,8 +12,8 @@ class MultiSample : public Combination<Heuristic, S...> {
   public:
     using typename Base::Scalar;
 
-    explicit constexpr MultiSample(const Heuristic& heuristic, Take<S>... techniques)
-        : Base{heuristic, {static_cast<Scalar>(techniques.count)...}, {std::forward<S>(techniques.strategy)...}},
+    explicit constexpr MultiSample(const Heuristic& heuristic, Take<S>&&... techniques)
+        : Base{heuristic, {static_cast<Scalar>(techniques.count)...}, std::move(techniques)...},
           counts_{techniques.count...} {}
 
     // An unbiased estimate of the integral of f. f(x) returns a number, a glm::vec, or any type that adds to itself and
@@ -23,7 +23,10 @@ class MultiSample : public Combination<Heuristic, S...> {
     [[nodiscard]] auto estimate(F&& f, U&& uniforms) const {
         decltype(this->template draw<0>(f, uniforms)) sum{};
         detail::for_each_index<Base::size>([&](auto i) {
-            for (int k = 0; k < counts_[i]; ++k) sum = sum + this->template draw<i>(f, uniforms);
+            for (int k = 0; k < counts_[i]; ++k) {
+                const auto value = this->template draw<i>(f, uniforms);
+                sum = i == 0 && k == 0 ? value : sum + value;
+            }
         });
         return sum;
     }

@@ -12,8 +12,8 @@ class OneSample : public Combination<Heuristic, S...> {
   public:
     using typename Base::Scalar;
 
-    explicit constexpr OneSample(const Heuristic& heuristic, Choose<S>... techniques)
-        : Base{heuristic, {techniques.probability...}, {std::forward<S>(techniques.strategy)...}} {}
+    explicit constexpr OneSample(const Heuristic& heuristic, Choose<S>&&... techniques)
+        : Base{heuristic, {techniques.probability...}, std::move(techniques)...} {}
 
     // An unbiased estimate of the integral of f, which is called as by MultiSample::estimate. Spends one uniform on the
     // selection, none if the only technique is certain.
