@@ -1,59 +1,82 @@
-// Time of a weight, weight/<heuristic>/<techniques>/<scalar>, and of a whole estimate of direct light at a point,
-// estimate/direct/<model>/<scalar>; random numbers are made beforehand.
+// A weight of two techniques, weight/<heuristic>_2/<form>/<scalar>, or of many, weight/<heuristic>_<techniques>/single/...,
+// and a whole estimate of direct light at a point, estimate/direct_<model>/single/<scalar>.
+#include "forms.hpp"
 #include "subjects.hpp"
+#include "textbook/weights.hpp"
+#include <lumis/batch/batch.hpp>
 #include <lumis/lumis.hpp>
 
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace {
 
-// Over twelve decades, `techniques` of them for each item.
+// Over twelve decades, `techniques` of them for each item. The book's squares must not overflow.
 template <class T>
 std::vector<T> random_densities(std::size_t techniques) {
-    const auto uniforms = random_uniforms<1, T>();
-    std::vector<T> densities;
-    for (std::size_t i = 0; i < batch * techniques; ++i) {
-        densities.push_back(std::pow(T(10), 12 * uniforms[(i * 7 + i / batch) % batch].x - 6));
-    }
+    std::vector<T> densities = Uniforms<T>{techniques}.x;
+    for (T& q : densities) q = std::pow(T(10), 12 * q - 6);
     return densities;
 }
 
-template <class T, class Heuristic>
-void weight_kernel(benchmark::State& state, const Heuristic& heuristic, std::size_t techniques) {
-    const auto densities = random_densities<T>(techniques);
-    for (auto _ : state) {
-        for (std::size_t i = 0; i < batch; ++i) {
-            const std::span<const T> q{densities.data() + i * techniques, techniques};
-            benchmark::DoNotOptimize(lumis::mis_weight(heuristic, q, i % techniques));
-        }
-    }
-    count_items(state, batch);
+template <class T>
+struct Densities {
+    std::vector<T> own = random_densities<T>(1), other = Densities::reversed(own);
+
+    static std::vector<T> reversed(const std::vector<T>& v) { return {v.rbegin(), v.rend()}; }
+};
+
+template <class T, class Heuristic, class Textbook>
+void add_pair(const std::string& name, const Heuristic& heuristic, const Textbook& textbook) {
+    const auto densities = lazily([] { return Densities<T>{}; });
+    const auto each = [](auto weight) {
+        return [=](const auto& rule, const Densities<T>& q, std::size_t, Results<T>& out) {
+            const auto held = rule;
+            for (std::size_t i = 0; i < batch; ++i) {
+                one_at_a_time(i);
+                out.weight[i] = weight(held, q.own[i], q.other[i]);
+            }
+        };
+    };
+    const std::string full = "weight/" + name + "_2/";
+    add_form<T>(full + "single", ready(heuristic), densities,
+                each([](const auto& h, T own, T other) { return lumis::mis_weight(h, own, other); }));
+    add_form<T>(full + "textbook", ready(textbook), densities,
+                each([](const auto& h, T own, T other) { return h(own, other); }));
+    add_form<T>(full + "batch", ready(heuristic), densities,
+                [](const auto& h, const Densities<T>& q, std::size_t, Results<T>& out) {
+                    mis_weight_n(h, std::span<const T>{q.own}, std::span<const T>{q.other}, std::span<T>{out.weight});
+                });
 }
 
 template <class T, class Heuristic>
-void register_heuristic(const std::string& name, Heuristic heuristic) {
-    for (const std::size_t techniques : {2u, 8u, 256u}) {
-        const std::string full = "weight/" + name + "/" + std::to_string(techniques) + "/" + scalar_name<T>;
-        benchmark::RegisterBenchmark(full.c_str(), weight_kernel<T, Heuristic>, heuristic, techniques);
-    }
+void add_many(const std::string& name, const Heuristic& heuristic, std::size_t techniques) {
+    add_form<T>("weight/" + name + "_" + std::to_string(techniques) + "/single", ready(heuristic),
+                lazily([=] { return random_densities<T>(techniques); }),
+                [=](const auto& h, const std::vector<T>& densities, std::size_t, Results<T>& out) {
+                    for (std::size_t i = 0; i < batch; ++i) {
+                        const std::span<const T> q{densities.data() + i * techniques, techniques};
+                        out.weight[i] = lumis::mis_weight(h, q, i % techniques);
+                    }
+                });
 }
 
 // A host's sampler whose numbers are there already.
 template <class T>
 struct Prepared {
-    std::vector<glm::vec<1, T>> numbers = random_uniforms<1, T>();
+    const std::vector<T>& numbers;
     std::size_t position = 0;
 
     template <int N>
     glm::vec<N, T> next() {
         glm::vec<N, T> u;
-        for (int i = 0; i < N; ++i) u[i] = numbers[position++ % batch].x;
+        for (int i = 0; i < N; ++i) u[i] = numbers[position++ % batch];
         return u;
     }
 };
@@ -66,20 +89,23 @@ struct Reflectance {
 };
 
 template <class T>
-void register_all() {
-    register_heuristic<T>("balance", lumis::BalanceHeuristic{});
-    register_heuristic<T>("power", lumis::PowerHeuristic{});
+void add_all() {
+    add_pair<T>("balance", lumis::BalanceHeuristic{}, textbook::BalanceHeuristic{});
+    add_pair<T>("power", lumis::PowerHeuristic{}, textbook::PowerHeuristic{});
+    for (const std::size_t techniques : {8u, 256u}) {
+        add_many<T>("balance", lumis::BalanceHeuristic{}, techniques);
+        add_many<T>("power", lumis::PowerHeuristic{}, techniques);
+    }
 
     const Scene<T> scene;
     const lumis::CosineHemisphere<T> bsdf;
     const lumis::AreaLight<lumis::Sphere<T>, lumis::BySolidAngle> light{scene.sphere, scene.origin};
     const auto add = [&](const std::string& model, const auto& estimator) {
-        const auto kernel = [=](benchmark::State& state) {
-            Prepared<T> uniforms;
-            for (auto _ : state) benchmark::DoNotOptimize(estimator.estimate(Reflectance<T>{light}, uniforms));
-            count_items(state, 1);
-        };
-        benchmark::RegisterBenchmark(("estimate/direct/" + model + "/" + scalar_name<T>).c_str(), kernel);
+        add_form<T>("estimate/direct_" + model + "/single", ready(estimator), lazily([] { return Uniforms<T>{few}; }),
+                    [=](const auto& direct, const Uniforms<T>& u, std::size_t, Results<T>& out) {
+                        Prepared<T> uniforms{u.x};
+                        for (T& result : out.x) result = direct.estimate(Reflectance<T>{light}, uniforms);
+                    });
     };
     using namespace lumis;
     add("light", multi_sample(PowerHeuristic{}, take(1, light)));
@@ -89,6 +115,6 @@ void register_all() {
     add("one_sample", one_sample(BalanceHeuristic{}, choose(0.5, bsdf), choose(0.5, light)));
 }
 
-const bool registered = (register_all<float>(), register_all<double>(), true);
+const bool added = (add_all<float>(), add_all<double>(), true);
 
 }  // namespace

@@ -1,78 +1,156 @@
-// Time of one draw and of one density evaluation for every strategy: sample/<strategy>/single/<scalar> and
-// pdf/<strategy>/single/<scalar>. Random numbers and directions are made beforehand; the time of an item is that of one
-// call. A new strategy adds one line to register_strategies.
+// Drawing, sample/<strategy>/<form>/<scalar>, and densities, pdf/<strategy>/<form>/<scalar>, of directions that need no
+// table. once/<strategy>/...: a strategy is made for a new point and draws one sample, as at each vertex of a path.
+#include "forms.hpp"
 #include "subjects.hpp"
+#include "textbook/directions.hpp"
+#include "textbook/ggx.hpp"
+#include "textbook/lights.hpp"
 #include <lumis/lumis.hpp>
 
-#include <benchmark/benchmark.h>
-
-#include <memory>
+#include <cstddef>
 #include <string>
-#include <utility>
 
 namespace {
 
-template <class S>
-void sample_kernel(benchmark::State& state, const S& strategy) {
-    const auto uniforms = random_uniforms<S::dimensions, typename S::Scalar>();
-    for (auto _ : state) {
-        for (const auto& u : uniforms) benchmark::DoNotOptimize(strategy.sample(u));
-    }
-    count_items(state, uniforms.size());
+// Lights from points near the origin; GGX from directions around wo.
+template <class T, class Strategy, class Textbook, class Of>
+void add_once(const std::string& name, Of of) {
+    const auto uniforms = lazily([] { return Uniforms<T>{few}; });
+    const auto make_and_sample = [=]<class S>(std::type_identity<S>) {
+        return [=](const glm::vec<3, T>& from, const Uniforms<T>& u, std::size_t pass, Results<T>& out) {
+            const auto x = part(u.x, pass), y = part(u.y, pass);
+            const glm::vec<3, T> start = from;
+            const Of what = of;
+            for (std::size_t i = 0; i < batch; ++i) {
+                one_at_a_time(i);
+                const auto drawn =
+                    what.template operator()<S>(start + T(0.5) * glm::vec<3, T>{y[i], x[i], 0}).sample({x[i], y[i]});
+                out.x[i] = drawn.value.x;
+                out.y[i] = drawn.value.y;
+                out.z[i] = drawn.value.z;
+                out.pdf[i] = drawn.pdf;
+            }
+        };
+    };
+    const auto origin = ready(glm::vec<3, T>{});
+    add_form<T>("once/" + name + "/single", origin, uniforms, make_and_sample(std::type_identity<Strategy>{}));
+    add_form<T>("once/" + name + "/textbook", origin, uniforms, make_and_sample(std::type_identity<Textbook>{}));
 }
 
-template <class S>
-void pdf_kernel(benchmark::State& state, const S& strategy) {
-    const auto directions = half_own_half_anywhere(strategy);
-    for (auto _ : state) {
-        for (const auto& w : directions) benchmark::DoNotOptimize(strategy.pdf(w));
-    }
-    count_items(state, directions.size());
+// A light with its textbook counterpart.
+template <class T, class Light, class Textbook, class Shape>
+void add_light(const std::string& name, const Shape& shape) {
+    const glm::vec<3, T> origin = Scene<T>{}.origin;
+    add_strategy<T>(name, ready(Light{shape, origin}), ready(Textbook{shape, origin}));
+    add_once<T, Light, Textbook>(name, [shape]<class S>(const glm::vec<3, T>& from) { return S{shape, from}; });
 }
 
-template <class S>
-void register_strategy(const std::string& name, S strategy) {
-    const auto held = std::make_shared<const S>(std::move(strategy));
-    const std::string suffix = "/" + name + "/single/" + scalar_name<typename S::Scalar>;
-    benchmark::RegisterBenchmark(("sample" + suffix).c_str(), [held](auto& state) { sample_kernel(state, *held); });
-    benchmark::RegisterBenchmark(("pdf" + suffix).c_str(), [held](auto& state) { pdf_kernel(state, *held); });
+// A sample, its density and its weight, reflectance times cosine over density: all that a path needs.
+template <class T>
+void add_ggx_reflection() {
+    const Scene<T> scene;
+    const auto strategy = ready(lumis::GgxReflection<T>{scene.wo, scene.alpha});
+    const auto textbook = ready(textbook::GgxReflection<T>{scene.wo, scene.alpha});
+    const auto uniforms = lazily([] { return Uniforms<T>{few}; });
+    const auto directions = lazily([=] { return half_own_half_anywhere(*strategy(), few); });
+
+    const auto weighed = [](auto brdf_of) {
+        return [=]<class S>(const S& made, const Uniforms<T>& u, std::size_t pass, Results<T>& out) {
+            const S surface = made;
+            const auto brdf = brdf_of(surface);
+            const auto x = part(u.x, pass), y = part(u.y, pass);
+            for (std::size_t i = 0; i < batch; ++i) {
+                one_at_a_time(i);
+                const auto drawn = surface.sample({x[i], y[i]});
+                const auto& wi = drawn.value;
+                out.x[i] = wi.x;
+                out.y[i] = wi.y;
+                out.z[i] = wi.z;
+                out.pdf[i] = drawn.pdf;
+                out.weight[i] = drawn.pdf > 0 ? brdf(wi) * wi.z / drawn.pdf : T(0);
+            }
+        };
+    };
+    const auto of_lumis = [wo = scene.wo](const auto& surface) {
+        return [wo, ggx = surface.ggx()](const auto& wi) { return ggx.brdf(wo, wi); };
+    };
+    const auto of_book = [](const auto& surface) { return [surface](const auto& wi) { return surface.brdf(wi); }; };
+    add_form<T>("sample/ggx_reflection/single", strategy, uniforms, weighed(of_lumis));
+    add_form<T>("sample/ggx_reflection/textbook", textbook, uniforms, weighed(of_book));
+    add_form<T>("sample/ggx_reflection/batch", strategy, uniforms,
+                [=](const auto& surface, const auto& u, std::size_t pass, Results<T>& out) {
+                    lumis::sample_n(surface, {part(u.x, pass), part(u.y, pass)}, {out.x, out.y, out.z, out.pdf});
+                    const auto brdf_cosine = [brdf = of_lumis(surface)](const auto& wi) { return brdf(wi) * wi.z; };
+                    lumis::evaluate_n<T>(brdf_cosine, out.x, out.y, out.z, out.weight);
+                    for (std::size_t i = 0; i < batch; ++i) {
+                        out.weight[i] = out.pdf[i] > 0 ? out.weight[i] / out.pdf[i] : T(0);
+                    }
+                });
+
+    const auto pdf_single = [](const auto& s, const auto& w, auto pass, auto& out) { pdf_each(s, w, pass, out); };
+    add_form<T>("pdf/ggx_reflection/single", strategy, directions, pdf_single);
+    add_form<T>("pdf/ggx_reflection/textbook", textbook, directions, pdf_single);
+    add_form<T>("pdf/ggx_reflection/batch", strategy, directions,
+                [](const auto& s, const auto& w, auto pass, auto& out) {
+                    lumis::pdf_n(s, part(w.x, pass), part(w.y, pass), part(w.z, pass), out.pdf);
+                });
+    add_once<T, lumis::GgxReflection<T>, textbook::GgxReflection<T>>(
+        "ggx_reflection", [scene]<class S>(const glm::vec<3, T>& aside) {
+            return S{glm::normalize(scene.wo + aside), scene.alpha};
+        });
+}
+
+// It spends a third uniform on the choice, so there is no batch of it.
+template <class T>
+void add_mixture() {
+    const Scene<T> scene;
+    const lumis::Mixture mixture{lumis::choose(0.5, lumis::CosineHemisphere<T>{}),
+                                 lumis::choose(0.5, lumis::GgxReflection<T>{scene.wo, scene.alpha})};
+    struct Chosen {
+        Uniforms<T> choice{few, 2}, u{few};
+    };
+    add_form<T>("sample/mixture/single", ready(mixture), lazily([] { return Chosen{}; }),
+                [](const auto& made, const Chosen& c, std::size_t, Results<T>& out) {
+                    const auto held = made;
+                    for (std::size_t i = 0; i < batch; ++i) {
+                        one_at_a_time(i);
+                        const auto drawn = held.sample({c.choice.x[i], c.u.x[i], c.u.y[i]});
+                        out.x[i] = drawn.value.x;
+                        out.y[i] = drawn.value.y;
+                        out.z[i] = drawn.value.z;
+                        out.pdf[i] = drawn.pdf;
+                    }
+                });
 }
 
 template <class T>
-void register_strategies() {
+void add_all() {
+    using namespace lumis;
     const Scene<T> scene;
-    register_strategy("cosine_hemisphere", lumis::CosineHemisphere<T>{});
-    register_strategy("uniform_hemisphere", lumis::UniformHemisphere<T>{});
-    register_strategy("ggx_vndf", lumis::GgxVndf<T>{scene.wo, scene.alpha});
-    register_strategy("ggx_reflection", lumis::GgxReflection<T>{scene.wo, scene.alpha});
-    register_strategy("perfect_reflection", lumis::PerfectReflection<T>{scene.wo});
-    register_strategy("triangle", lumis::AreaLight{scene.triangle, scene.origin});
-    register_strategy("parallelogram", lumis::AreaLight{scene.parallelogram, scene.origin});
-    register_strategy("sphere_by_area", lumis::AreaLight<lumis::Sphere<T>, lumis::ByArea>{scene.sphere, scene.origin});
-    register_strategy("sphere_by_solid_angle",
-                      lumis::AreaLight<lumis::Sphere<T>, lumis::BySolidAngle>{scene.sphere, scene.origin});
-    register_strategy("environment", lumis::EnvironmentMap{1024, 512, sky<T>(1024, 512)});
-    register_strategy("mixture", lumis::Mixture{lumis::choose(0.5, lumis::CosineHemisphere<T>{}),
-                                                lumis::choose(0.5, lumis::GgxReflection<T>{scene.wo, scene.alpha})});
+    const auto none = nullptr;
+    add_strategy<T>("cosine_hemisphere", ready(CosineHemisphere<T>{}), ready(textbook::CosineHemisphere<T>{}));
+    add_form<T>("sample/cosine_hemisphere/textbook_concentric", ready(textbook::ConcentricCosineHemisphere<T>{}),
+                lazily([] { return ::Uniforms<T>{few}; }),
+                [](const auto& s, const auto& u, auto pass, auto& out) { sample_each(s, u, pass, out); });
+    add_strategy<T>("uniform_hemisphere", ready(UniformHemisphere<T>{}), ready(textbook::UniformHemisphere<T>{}));
+    add_strategy<T>("uniform_sphere", ready(UniformSphere<T>{}), ready(textbook::UniformSphere<T>{}));
+    add_ggx_reflection<T>();
+    add_strategy<T>("ggx_bounded_reflection", ready(GgxBoundedReflection<T>{scene.wo, scene.alpha}), none);
+    add_strategy<T>("ggx_vndf", ready(GgxVndf<T>{scene.wo, scene.alpha}), none);
+    add_strategy<T>("perfect_reflection", ready(PerfectReflection<T>{scene.wo}), none);
+    add_mixture<T>();
+
+    add_light<T, AreaLight<Triangle<T>>, textbook::TriangleByArea<T>>("triangle_by_area", scene.triangle);
+    add_light<T, AreaLight<Parallelogram<T>>, textbook::ParallelogramByArea<T>>("rectangle_by_area", scene.rectangle);
+    add_light<T, AreaLight<Disk<T>>, textbook::DiskByArea<T>>("disk_by_area", scene.disk);
+    add_light<T, AreaLight<Sphere<T>, BySolidAngle>, textbook::SphereByCone<T>>("sphere_by_solid_angle", scene.sphere);
+    add_light<T, AreaLight<Triangle<T>, BySolidAngle>, textbook::TriangleBySolidAngle<T>>("triangle_by_solid_angle",
+                                                                                          scene.triangle);
+    add_light<T, AreaLight<Parallelogram<T>, BySolidAngle>, textbook::RectangleBySolidAngle<T>>(
+        "rectangle_by_solid_angle", scene.rectangle);
+    add_strategy<T>("sphere_by_area", ready(AreaLight<Sphere<T>>{scene.sphere, scene.origin}), none);
 }
 
-void build_environment(benchmark::State& state, int width, int height) {
-    const auto luminance = sky<float>(width, height);
-    for (auto _ : state) {
-        const lumis::EnvironmentMap map{width, height, luminance};
-        benchmark::DoNotOptimize(map.empty());
-    }
-    count_items(state, luminance.size());
-}
-
-const bool registered = [] {
-    register_strategies<float>();
-    register_strategies<double>();
-    for (const int width : {1024, 4096, 8192}) {
-        const std::string name = "build/environment/" + std::to_string(width) + "x" + std::to_string(width / 2);
-        benchmark::RegisterBenchmark(name.c_str(), build_environment, width, width / 2)->Unit(benchmark::kMillisecond);
-    }
-    return true;
-}();
+const bool added = (add_all<float>(), add_all<double>(), true);
 
 }  // namespace

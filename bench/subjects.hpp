@@ -1,53 +1,68 @@
 // What the kernels work on: random numbers and directions made beforehand, and the lights and surfaces of one scene.
 #pragma once
 
+#include "kernel.hpp"
 #include <lumis/lumis.hpp>
-
-#include <benchmark/benchmark.h>
 
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <random>
+#include <span>
 #include <type_traits>
 #include <vector>
-
-// Few enough to stay in the first cache.
-inline constexpr std::size_t batch = 1024;
 
 template <class T>
 inline constexpr const char* scalar_name = std::is_same_v<T, float> ? "float" : "double";
 
-template <int N, class T>
-std::vector<glm::vec<N, T>> random_uniforms() {
-    lumis::Uniforms<std::mt19937_64, T> source{std::mt19937_64{1}};
-    std::vector<glm::vec<N, T>> uniforms(batch);
-    for (auto& u : uniforms) u = source.template next<N>();
-    return uniforms;
+// How many passes' worth of different numbers there are. A table that outgrows the caches must not be asked for the same
+// thousand of its entries over and over.
+inline constexpr std::size_t few = 1, many = 1024;
+
+template <class T>
+[[nodiscard]] std::span<const T> part(const std::vector<T>& v, std::size_t pass) {
+    const std::size_t passes = v.size() / batch;
+    return {v.data() + pass % passes * batch, batch};
 }
+
+// Each component in an array of its own.
+template <class T>
+struct Uniforms {
+    std::vector<T> x, y;
+
+    explicit Uniforms(std::size_t passes, unsigned seed = 1) : x(passes * batch), y(passes * batch) {
+        lumis::Uniforms<std::mt19937_64, T> source{std::mt19937_64{seed}};
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const auto u = source.template next<2>();
+            x[i] = u.x, y[i] = u.y;
+        }
+    }
+};
+
+template <class T>
+struct Directions {
+    std::vector<T> x, y, z;
+
+    void add(const lumis::Direction<T>& w) { x.push_back(w.x), y.push_back(w.y), z.push_back(w.z); }
+};
+
+// Where a pass writes to.
+template <class T>
+struct Results {
+    std::vector<T> x = std::vector<T>(batch), y = x, z = x, pdf = x, weight = x;
+};
 
 // Off its support a strategy may tell a density of 0 early, so neither kind of direction alone would do.
 template <class S>
-std::vector<typename S::Point> half_own_half_anywhere(const S& strategy) {
+[[nodiscard]] auto half_own_half_anywhere(const S& strategy, std::size_t passes) {
     using T = typename S::Scalar;
-    const auto own = random_uniforms<S::dimensions, T>();
-    lumis::Uniforms<std::mt19937_64, T> source{std::mt19937_64{2}};
-    std::vector<typename S::Point> directions;
-    for (const auto& u : own) {
-        const auto any = source.template next<3>();
-        const auto sample = strategy.sample(u);
-        const bool drawn = any.z < T(0.5) && sample.pdf > 0;
-        directions.push_back(drawn ? sample.value : lumis::direction_at(2 * any.x, any.y));
+    const Uniforms<T> own{passes, 1}, any{passes, 2}, coin{passes, 3};
+    Directions<T> directions;
+    for (std::size_t i = 0; i < own.x.size(); ++i) {
+        const auto sample = strategy.sample({own.x[i], own.y[i]});
+        const bool drawn = coin.x[i] < T(0.5) && sample.pdf > 0;
+        directions.add(drawn ? sample.value : lumis::direction_at(2 * any.x[i], any.y[i]));
     }
     return directions;
-}
-
-// Shows as time for each item, in seconds with a prefix: 12n is 12 ns.
-inline void count_items(benchmark::State& state, std::size_t items_each) {
-    const auto items = state.iterations() * static_cast<std::int64_t>(items_each);
-    state.SetItemsProcessed(items);
-    state.counters["time_each"] =
-        benchmark::Counter(static_cast<double>(items), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 template <class T>
@@ -58,20 +73,21 @@ struct Scene {
     Vector wo = glm::normalize(Vector{1, T(0.5), 1});
     glm::vec<2, T> alpha{T(0.2), T(0.4)};
     lumis::Triangle<T> triangle{{-1, -1, 2}, {1, -1, 2}, {0, 1, 3}};
-    lumis::Parallelogram<T> parallelogram{{-1, -1, 2}, {2, 0, 0}, {0, 2, 1}};
+    lumis::Parallelogram<T> rectangle{{-1, -1, 2}, {2, 0, 0}, {0, 2, 1}};
+    lumis::Disk<T> disk{{1, 0, 2}, {0, T(0.6), T(-0.8)}, 1};
     lumis::Sphere<T> sphere{{1, 0, 3}, 1};
 };
 
-// A smooth sky with a small sun in it.
+// A smooth sky with a small sun in it, which gives about as much light as the rest.
 template <class T>
-std::vector<T> sky(int width, int height) {
+[[nodiscard]] std::vector<T> sky(int width, int height) {
     std::vector<T> luminance;
     luminance.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     for (int y = 0; y < height; ++y) {
         const double v = (y + 0.5) / height;
         for (int x = 0; x < width; ++x) {
             const bool sun = std::hypot((x + 0.5) / width - 0.3, (v - 0.25) / 2) < 0.003;
-            luminance.push_back(static_cast<T>(1.2 - v + (sun ? 5e4 : 0.0)));
+            luminance.push_back(static_cast<T>(1.2 - v + (sun ? 1e4 : 0.0)));
         }
     }
     return luminance;

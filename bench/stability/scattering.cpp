@@ -47,9 +47,10 @@ struct QuadGgx {
     }
 };
 
-// Density of what is drawn, against the reference at the very same value.
+// Density of what is drawn, against the reference at the very same value. left(value) is what a sum in it that cancels
+// leaves of its terms, by which the error is multiplied.
 template <class T, class S>
-void check_drawn(Measured& measured, const S& strategy, std::int64_t random, auto reference) {
+void check_drawn(Measured& measured, const S& strategy, std::int64_t random, auto reference, auto left) {
     for_each_uniform<T>(random, [&](const auto& u) {
         const auto sample = strategy.sample(u);
         measured.sample<T>(sample, strategy.pdf(sample.value));
@@ -59,9 +60,16 @@ void check_drawn(Measured& measured, const S& strategy, std::int64_t random, aut
         const Quad expected = reference(quad(sample.value));
         // Beyond the range of T there is no number to compare.
         if (expected < Quad{std::numeric_limits<T>::min()}) return;
-        measured.compare(sample.pdf, expected);
-        measured.compare(strategy.pdf(sample.value), expected);
+        for (const T pdf : {sample.pdf, strategy.pdf(sample.value)}) {
+            measured.density(pdf);
+            measured.error(static_cast<double>(left(quad(sample.value)) * abs(Quad{pdf} - expected) / expected));
+        }
     });
+}
+
+template <class T, class S>
+void check_drawn(Measured& measured, const S& strategy, std::int64_t random, auto reference) {
+    check_drawn<T>(measured, strategy, random, reference, [](const QuadVector&) { return Quad{1}; });
 }
 
 template <class T, class Visit>
@@ -136,8 +144,12 @@ template <class T>
 Measured ggx_visible_normals(Effort effort) {
     Measured measured;
     for_each_surface<T>([&](const auto& alpha, const auto& wo) {
-        check_drawn<T>(measured, lumis::GgxVndf<T>{wo, alpha}, effort.of(30),
-                       [&](const QuadVector& m) { return QuadGgx{alpha}.visible_normals(quad(wo), m); });
+        check_drawn<T>(
+            measured, lumis::GgxVndf<T>{wo, alpha}, effort.of(30),
+            [&](const QuadVector& m) { return QuadGgx{alpha}.visible_normals(quad(wo), m); },
+            [o = quad(wo)](const QuadVector& m) -> Quad {
+                return abs(dot(o, m)) / (abs(o.x * m.x) + abs(o.y * m.y) + abs(o.z * m.z));
+            });
     });
     return measured;
 }

@@ -1,0 +1,76 @@
+// Directions as books have them: sine and cosine of 2 pi u by the standard library, 1 - cos as a difference.
+// Pharr, Jakob and Humphreys 2023, "Physically Based Rendering", sections A.5 and A.5.3. Same uniforms, same directions
+// as the strategies of Lumis, so that only the arithmetic differs.
+#pragma once
+
+#include <lumis/core/sample.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <numbers>
+
+namespace textbook {
+
+using lumis::Direction;
+using lumis::Sample;
+
+template <std::floating_point T>
+[[nodiscard]] Direction<T> from_spherical(T cos_theta, T sin_theta, T phi) noexcept {
+    return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta};
+}
+
+// Malley's method on polar coordinates of the disk. Shirley and Chiu's concentric map, below, is the slower of the two.
+template <std::floating_point T>
+struct CosineHemisphere {
+    [[nodiscard]] Sample<Direction<T>, T> sample(glm::vec<2, T> u) const noexcept {
+        const T radius = std::sqrt(u.x), phi = 2 * std::numbers::pi_v<T> * u.y;
+        const T x = radius * std::cos(phi), y = radius * std::sin(phi);
+        const T z = std::sqrt(std::max(T(0), 1 - x * x - y * y));
+        return {{x, y, z}, z * std::numbers::inv_pi_v<T>};
+    }
+    [[nodiscard]] T pdf(const Direction<T>& w) const noexcept {
+        return std::max(w.z, T(0)) * std::numbers::inv_pi_v<T>;
+    }
+};
+
+template <std::floating_point T>
+struct ConcentricCosineHemisphere : CosineHemisphere<T> {
+    [[nodiscard]] Sample<Direction<T>, T> sample(glm::vec<2, T> u) const noexcept {
+        const T a = 2 * u.x - 1, b = 2 * u.y - 1;
+        constexpr T pi = std::numbers::pi_v<T>;
+        T radius = 0, phi = 0;
+        if (std::abs(a) > std::abs(b)) {
+            radius = a, phi = pi / 4 * (b / a);
+        } else if (b != 0) {
+            radius = b, phi = pi / 2 - pi / 4 * (a / b);
+        }
+        const T x = radius * std::cos(phi), y = radius * std::sin(phi);
+        const T z = std::sqrt(std::max(T(0), 1 - x * x - y * y));
+        return {{x, y, z}, z * std::numbers::inv_pi_v<T>};
+    }
+};
+
+template <std::floating_point T>
+struct UniformHemisphere {
+    [[nodiscard]] Sample<Direction<T>, T> sample(glm::vec<2, T> u) const noexcept {
+        const T z = 1 - u.x;
+        return {from_spherical(z, std::sqrt(std::max(T(0), 1 - z * z)), 2 * std::numbers::pi_v<T> * u.y), density};
+    }
+    [[nodiscard]] T pdf(const Direction<T>& w) const noexcept { return w.z > 0 ? density : T(0); }
+
+    static constexpr T density = std::numbers::inv_pi_v<T> / 2;
+};
+
+template <std::floating_point T>
+struct UniformSphere {
+    [[nodiscard]] Sample<Direction<T>, T> sample(glm::vec<2, T> u) const noexcept {
+        const T z = 1 - 2 * u.x;
+        return {from_spherical(z, std::sqrt(std::max(T(0), 1 - z * z)), 2 * std::numbers::pi_v<T> * u.y), density};
+    }
+    [[nodiscard]] T pdf(const Direction<T>&) const noexcept { return density; }
+
+    static constexpr T density = std::numbers::inv_pi_v<T> / 4;
+};
+
+}  // namespace textbook
