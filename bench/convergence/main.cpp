@@ -1,5 +1,6 @@
 // Measures the error of estimators against their run time, and writes what the report is drawn from.
-#include "integral_study.hpp"
+#include "left_out.hpp"
+#include "problem_study.hpp"
 #include "render_study.hpp"
 #include "renderer.hpp"
 #include "results.hpp"
@@ -9,25 +10,19 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <numeric>
+#include <optional>
+#include <tuple>
 
 namespace {
 
 using namespace convergence;
-
-struct Settings {
-    std::filesystem::path output = "report";
-    int seeds = 8;
-    double seconds = 0.4;
-    int width = 240;
-    int reference_samples = 128;
-    int threads = oneapi::tbb::info::default_concurrency();
-    std::string environment;
-};
 
 // One line on the terminal that is written over again and again.
 class ProgressLine {
@@ -43,18 +38,29 @@ class ProgressLine {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-std::vector<std::uint64_t> first_seeds(int count) {
-    std::vector<std::uint64_t> seeds(static_cast<std::size_t>(count));
-    std::iota(seeds.begin(), seeds.end(), std::uint64_t{1});
-    return seeds;
+constexpr const char* stiff_name = "stiff";
+
+std::vector<std::string> all_problems() {
+    std::vector<std::string> names;
+    for (const tracer::SceneEntry& scene : tracer::scenes()) names.emplace_back(scene.name);
+    for (const Entry& entry : registered_problems()) names.push_back(entry.name);
+    names.emplace_back(stiff_name);
+    return names;
+}
+
+void list() {
+    for (const tracer::SceneEntry& scene : tracer::scenes()) std::cout << scene.name << ": " << scene.title << '\n';
+    for (const Entry& entry : registered_problems()) std::cout << entry.name << ": " << entry.make().title << '\n';
+    std::cout << stiff_name << ": Near-mirror surfaces under lights of all sizes\n";
 }
 
 void run(const Settings& settings) {
-    const oneapi::tbb::global_control threads{oneapi::tbb::global_control::max_allowed_parallelism,
-                                              static_cast<std::size_t>(settings.threads)};
     std::filesystem::create_directories(settings.output);
     const RenderSettings render{settings.width,       settings.seconds, settings.reference_samples,
                                 settings.environment, settings.output,  settings.output.parent_path() / "references"};
+    const auto asked_for = [&](const std::string& name) {
+        return settings.problems.empty() || std::ranges::count(settings.problems, name) > 0;
+    };
     ProgressLine progress;
     std::vector<Study> studies;
     const auto finish = [&](Study study) {
@@ -64,46 +70,80 @@ void run(const Settings& settings) {
         studies.push_back(std::move(study));
     };
     for (const tracer::SceneEntry& scene : tracer::scenes()) {
-        finish(render_study(std::string{scene.name}, first_seeds(settings.seeds), render, std::ref(progress)));
+        const std::string name{scene.name};
+        if (asked_for(name)) finish(render_study(name, settings.seeds, render, std::ref(progress)));
     }
-    // An integral's error is one number a run, where an image's is a mean over pixels: it takes more, shorter runs.
-    for (Study& study : integral_studies(first_seeds(8 * settings.seeds), settings.seconds / 50, std::ref(progress))) {
-        finish(std::move(study));
+    for (const Entry& entry : registered_problems()) {
+        if (!asked_for(entry.name)) continue;
+        finish(problem_study(entry.name, entry.make(), settings.seeds, settings.seconds_of_integrals(),
+                             std::ref(progress)));
     }
-    const StiffStudy stiff = stiff_study(2 * settings.seeds, settings.seconds / 200, std::ref(progress));
-    progress.clear();
-    print_table(stiff);
+    std::optional<StiffStudy> stiff;
+    if (asked_for(stiff_name)) {
+        stiff = stiff_study(2 * static_cast<int>(settings.seeds.size()), settings.seconds / 200, std::ref(progress));
+        progress.clear();
+        print_table(*stiff);
+    }
     write_csv(settings.output / "results.csv", studies);
-    write_json(settings.output / "results.json", studies, stiff, settings.threads);
+    write_json(settings.output / "results.json", studies, stiff, settings);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     Settings settings;
+    settings.threads = oneapi::tbb::info::default_concurrency();
+    int seeds = 8;
+    bool thorough = false, list_only = false;
+    std::tuple<std::string, std::string, int> counted;
+
     CLI::App app{"Measures the error of estimators against their run time."};
     app.add_option("--output", settings.output, "Folder for the results")->capture_default_str();
-    app.add_option("--seeds", settings.seeds, "Independent runs of each estimator")
-        ->check(CLI::Range(2, 1000))
-        ->capture_default_str();
-    app.add_option("--seconds", settings.seconds, "CPU time of each run of a scene")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-    app.add_option("--width", settings.width, "Of the images, in pixels")
-        ->check(CLI::Range(16, 4096))
-        ->capture_default_str();
-    app.add_option("--reference-samples", settings.reference_samples, "A pixel, for each half of a reference")
-        ->check(CLI::Range(8, 1 << 20))
-        ->capture_default_str();
+    app.add_option("--problem", settings.problems, "Only these, see --list")->check(CLI::IsMember(all_problems()));
+    app.add_flag("--list", list_only, "Show the problems");
+    app.add_flag("--all", thorough, "Take about ten minutes for more seeds, time and pixels, unless these are given");
+    const auto* seeds_option = app.add_option("--seeds", seeds, "Independent runs of each estimator")
+                                   ->check(CLI::Range(2, 1000))
+                                   ->capture_default_str();
+    const auto* seconds_option = app.add_option("--seconds", settings.seconds, "CPU time of each run of a scene")
+                                     ->check(CLI::PositiveNumber)
+                                     ->capture_default_str();
+    const auto* width_option = app.add_option("--width", settings.width, "Of the images, in pixels")
+                                   ->check(CLI::Range(16, 4096))
+                                   ->capture_default_str();
+    const auto* reference_option =
+        app.add_option("--reference-samples", settings.reference_samples, "A pixel, for each half of a reference")
+            ->check(CLI::Range(8, 1 << 20))
+            ->capture_default_str();
     app.add_option("--threads", settings.threads, "For rendering")->check(CLI::Range(1, 1024))->capture_default_str();
     app.add_option("--env", settings.environment, "Environment map of the scene sky, latitude-longitude");
+    auto* counted_option = app.add_option("--instructions", counted,
+                                          "Only render this scene, composed or with everything, with so many samples a "
+                                          "pixel, for a program that counts instructions");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
+    if (thorough) {
+        if (seeds_option->count() == 0) seeds = 16;
+        if (seconds_option->count() == 0) settings.seconds = 2;
+        if (width_option->count() == 0) settings.width = 384;
+        if (reference_option->count() == 0) settings.reference_samples = 1024;
+    }
+    settings.seeds.resize(static_cast<std::size_t>(seeds));
+    std::iota(settings.seeds.begin(), settings.seeds.end(), std::uint64_t{1});
+    if (counted_option->count() > 0) settings.threads = 1;
+    const oneapi::tbb::global_control threads{oneapi::tbb::global_control::max_allowed_parallelism,
+                                              static_cast<std::size_t>(settings.threads)};
     try {
-        run(settings);
+        if (list_only) {
+            list();
+        } else if (counted_option->count() > 0) {
+            std::apply(render_for_instructions, counted);
+        } else {
+            run(settings);
+        }
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "convergence: " << error.what() << '\n';

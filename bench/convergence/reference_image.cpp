@@ -1,8 +1,10 @@
 #include "reference_image.hpp"
 
+#include "agreement.hpp"
 #include <lumis/statistics/error_metrics.hpp>
 
 #include <array>
+#include <stdexcept>
 
 namespace convergence {
 
@@ -54,7 +56,13 @@ ReferenceImage reference_image(const tracer::Renderer& renderer, int width, int 
         }
         images[i] = tracer::read_image(file.string());
     }
-    const auto& [power, balance] = images;
+    auto& [power, balance] = images;
+    const Agreement agreed = agreement(power, balance);
+    if (!(agreed.worst_z <= agreed.limit)) {
+        throw std::runtime_error(
+            "the references of " + name + " by power and by balance disagree: a block differs by " +
+            std::to_string(agreed.worst_z) + " standard errors, more than " + std::to_string(agreed.limit));
+    }
     Image middle = power;
     for (std::size_t i = 0; i < middle.pixels.size(); ++i) {
         middle.pixels[i] = 0.5f * (power.pixels[i] + balance.pixels[i]);
@@ -63,7 +71,7 @@ ReferenceImage reference_image(const tracer::Renderer& renderer, int width, int 
     const double floor = 0.1 * mean(middle);
     const double squared_error = lumis::mean_squared_error(values(power), values(middle));
     const double relative = lumis::relative_mean_squared_error(values(power), values(middle), floor);
-    return {std::move(middle), floor, squared_error, relative};
+    return {std::move(middle), std::move(power), std::move(balance), floor, squared_error, relative, agreed};
 }
 
 }  // namespace convergence

@@ -14,14 +14,15 @@ namespace convergence {
 [[nodiscard]] std::span<const float> values(const tracer::Image& image);
 
 struct ReferenceImage {
-    tracer::Image image;
+    tracer::Image image, power, balance;           // the mean, and what it is the mean of
     double floor;                                  // of relative errors: a tenth of the image's mean
     double squared_error, relative_squared_error;  // of the image itself, mean over its values
+    Agreement agreement;
 };
 
 // The mean of two images by two integrators, power and balance. They share no sample, so that half their difference
-// tells the error of their mean, and an error of either integrator would show in it. One that is kept under `name` is
-// used again unless the program has been built anew since.
+// tells the error of their mean. Throws std::runtime_error if they do not agree within their errors. One that is kept
+// under `name` is used again unless the program has been built anew since.
 [[nodiscard]] ReferenceImage reference_image(const tracer::Renderer& renderer, int width, int height, int samples,
                                              const std::filesystem::path& folder, const std::string& name,
                                              const Progress& progress);

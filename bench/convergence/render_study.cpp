@@ -1,11 +1,13 @@
 #include "render_study.hpp"
 
 #include "image.hpp"
+#include "left_out.hpp"
 #include "reference_image.hpp"
 #include "renderer.hpp"
 #include <lumis/statistics/error_metrics.hpp>
 
 #include <chrono>
+#include <limits>
 
 namespace convergence {
 
@@ -29,6 +31,7 @@ class Run {
 
     [[nodiscard]] double cpu_seconds() const { return cpu_seconds_; }
     [[nodiscard]] double wall_seconds() const { return wall_seconds_; }
+    [[nodiscard]] const Film& film() const { return film_; }
     [[nodiscard]] Image image() const { return film_.image(); }
 
   private:
@@ -72,6 +75,44 @@ Measurement measure(const Run& run, const Image& image, const ReferenceImage& re
             lumis::relative_mean_squared_error(estimate, truth, reference.floor) - reference.relative_squared_error};
 }
 
+void add(Film& sum, const Film& film) {
+    for (std::size_t i = 0; i < sum.sums.size(); ++i) sum.sums[i] += film.sums[i];
+    sum.samples += film.samples;
+}
+
+// Counts and probabilities depend on how many lights have risen.
+Recipe recipe(const std::string& integrator) {
+    if (integrator == "bsdf" || integrator == "light") return {"alone"};
+    if (integrator == "one-sample") return {"one-sample", "balance"};
+    return {"multi-sample", integrator};
+}
+
+// Whether the mean image is off the reference, and what rules its error: from each pixel's relative deviation. It is taken
+// from either half of the reference, relative to the other: divided by its own noise, what is too dark would count for
+// more than what is too bright, and the reference would seem to be biased. Pixels are independent, and so their sum has the
+// root of the sum of their squares for its error (both images' noise is in it).
+Pooled pool(const Film& film, const ReferenceImage& reference) {
+    const Image image = film.image();
+    const auto estimate = values(image), power = values(reference.power), balance = values(reference.balance);
+    const auto deviation_from = [&](double value, double truth, double scale) {
+        return (value - truth) / std::max(scale, reference.floor);
+    };
+    double sum = 0, squares = 0;
+    std::vector<double> squared;
+    for (std::size_t i = 0; i < estimate.size(); i += 3) {
+        double deviation = 0;
+        for (std::size_t c = i; c < i + 3; ++c) {
+            deviation += 0.5 * (deviation_from(estimate[c], power[c], balance[c]) +
+                                deviation_from(estimate[c], balance[c], power[c]));
+        }
+        sum += deviation;
+        squares += deviation * deviation;
+        squared.push_back(deviation * deviation);
+    }
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    return {unknown, unknown, squares > 0 ? sum / std::sqrt(squares) : 0, tail_share(std::move(squared))};
+}
+
 }  // namespace
 
 Study render_study(const std::string& scene_name, const std::vector<std::uint64_t>& seeds,
@@ -79,12 +120,14 @@ Study render_study(const std::string& scene_name, const std::vector<std::uint64_
     const tracer::SceneEntry& scene = *tracer::find_scene(scene_name);
     Study study;
     study.name = scene.name;
+    study.group = "scenes";
     study.title = scene.title;
     study.description = scene.description;
     study.seeds = seeds;
     study.height = scene.height * settings.width / tracer::widest_scene();
     study.width = scene.width * settings.width / tracer::widest_scene();
-    const auto renderer = scene.make({study.width, study.height, settings.environment});
+    const tracer::SceneOptions options{study.width, study.height, settings.environment};
+    const auto renderer = scene.make(options);
     study.strategies = renderer->strategies("power");
 
     const ReferenceImage reference = reference_image(*renderer, study.width, study.height, settings.reference_samples,
@@ -93,19 +136,25 @@ Study render_study(const std::string& scene_name, const std::vector<std::uint64_
                        {},
                        reference.squared_error,
                        reference.relative_squared_error,
-                       write(settings.output, study.name + "_reference", reference.image)};
+                       write(settings.output, study.name + "_reference", reference.image),
+                       reference.agreement};
 
     // A first run finds how many samples fit in the time, and warms the machine up.
     for (const auto integrator : tracer::integrator_names) {
         Run trial{*renderer, integrator, 0, study.width, study.height};
         for (std::int64_t samples = 1; samples <= 2; ++samples) trial.advance_to(samples);
         const auto affordable = static_cast<std::int64_t>(2 * settings.seconds / trial.cpu_seconds());
-        study.series.push_back(
-            {std::string{integrator}, true, doubling_up_to(std::max(affordable, std::int64_t{2})), {}, {}});
+        Series& series = study.series.emplace_back();
+        series.name = integrator;
+        series.recipe = recipe(series.name);
+        series.samples = doubling_up_to(std::max(affordable, std::int64_t{2}));
+        series.runs_per_seed.assign(series.samples.size(), 1);
     }
     // All integrators take turns, so that a drift of the machine's speed hits all alike.
+    std::vector<Film> sums(study.series.size(), Film{study.width, study.height});
     for (const std::uint64_t seed : seeds) {
-        for (Series& series : study.series) {
+        for (std::size_t i = 0; i < study.series.size(); ++i) {
+            Series& series = study.series[i];
             progress(study.name + ", " + series.name);
             Run run{*renderer, series.name, seed, study.width, study.height};
             std::vector<Measurement> measurements;
@@ -114,6 +163,7 @@ Study render_study(const std::string& scene_name, const std::vector<std::uint64_
                 measurements.push_back(measure(run, run.image(), reference));
             }
             series.runs.push_back(std::move(measurements));
+            add(sums[i], run.film());
             if (series.picture) continue;
             const Image image = run.image();
             series.picture = Picture{write(settings.output, study.name + "_" + series.name, image),
@@ -121,6 +171,8 @@ Study render_study(const std::string& scene_name, const std::vector<std::uint64_
                                      count_fireflies(image, reference.image)};
         }
     }
+    for (std::size_t i = 0; i < sums.size(); ++i) study.series[i].pooled = pool(sums[i], reference);
+    study.left_out = left_out(study.name, *renderer, options, reference, seeds, settings.seconds / 4, progress);
     return study;
 }
 

@@ -21,6 +21,7 @@ from matplotlib.ticker import FuncFormatter, LogFormatterSciNotation, LogLocator
 
 from stiff import STIFF, plot_stiff, worst_errors
 
+SHOWN_GROUPS = ("scenes", "one-dimensional")
 SINGLE_STRATEGIES = ("bsdf", "light")
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#222222", "#cc79a7", "#e69f00", "#56b4e9")  # Okabe and Ito (2008)
 MARKERS = "osD^vPX*<>ph"
@@ -36,10 +37,10 @@ TEXT, COUNT, NUMBER, NAME = (str,), (int,), (int, float, type(None)), (str, type
 POINT = {"samples": COUNT} | dict.fromkeys((
     "cpu_seconds", "cpu_seconds_standard_error", "wall_seconds", "rmse", "rmse_standard_error", "relative_mse",
     "relative_mse_standard_error"), NUMBER)
-INTEGRATOR = {"name": TEXT, "unbiased": (bool,), "points": [POINT], "slope": NUMBER, "slope_standard_error": NUMBER,
+INTEGRATOR = {"name": TEXT, "unbiased": (bool,), "headline": (bool,), "points": [POINT], "slope": NUMBER, "slope_standard_error": NUMBER,
               "efficiency_relative_to_power": NUMBER, "efficiency_standard_error": NUMBER, "image?": NAME,
               "error_image?": NAME, "image_spp?": NUMBER, "image_seconds?": NUMBER, "fireflies?": NUMBER}
-PROBLEM = {"name": TEXT, "title": TEXT, "kind": TEXT, "description": TEXT, "strategies": (list,), "width?": COUNT,
+PROBLEM = {"name": TEXT, "group": TEXT, "title": TEXT, "kind": TEXT, "description": TEXT, "strategies": (list,), "width?": COUNT,
            "height?": COUNT, "integrators": [INTEGRATOR],
            "runs": COUNT,
            "reference": {"source": TEXT, "value?": NUMBER, "rmse": NUMBER, "relative_mse": NUMBER, "image?": NAME}}
@@ -59,6 +60,10 @@ def load(path):
     if not isinstance(results, dict) or results.get("schema") != 1:
         raise ValueError("not convergence results of schema 1")
     check(results, RESULTS)
+    # So far the page has room for these; the figures of all are in the file.
+    results["problems"] = [problem for problem in results["problems"] if problem["group"] in SHOWN_GROUPS]
+    for problem in results["problems"]:
+        problem["integrators"] = [integrator for integrator in problem["integrators"] if integrator["headline"]]
     names = [problem["name"] for problem in results["problems"]]
     for problem in results["problems"]:
         name, kind = problem["name"], problem["kind"]

@@ -1,6 +1,7 @@
 #include "results.hpp"
 
 #include <nlohmann/json.hpp>
+#include <sys/utsname.h>
 
 #include <cstdio>
 #include <ctime>
@@ -18,8 +19,8 @@ json number(double value) {
     return std::isfinite(value) ? json(value) : json(nullptr);
 }
 
-json file_or_null(const std::string& file) {
-    return file.empty() ? json(nullptr) : json(file);
+json text_or_null(const std::string& text) {
+    return text.empty() ? json(nullptr) : json(text);
 }
 
 std::ofstream open(const std::filesystem::path& file) {
@@ -34,6 +35,12 @@ std::string cpu_model() {
         if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
     }
     return "unknown";
+}
+
+std::string operating_system() {
+    utsname system{};
+    uname(&system);
+    return std::string{system.sysname} + " " + system.release + ", " + system.machine;
 }
 
 std::string today() {
@@ -51,24 +58,52 @@ std::string compiler() {
 #endif
 }
 
+json numbers_or_null(const auto& values) {
+    return values.empty() ? json(nullptr) : json(values);
+}
+
+json effort_json(const std::optional<Effort>& effort) {
+    if (!effort) return nullptr;
+    return {{"samples", number(effort->samples)},
+            {"cpu_seconds", number(effort->cpu_seconds)},
+            {"extrapolated", effort->extrapolated}};
+}
+
 json point_json(const Series& series, std::size_t point) {
     const auto cpu = series.over_seeds(point, &Measurement::cpu_seconds);
     const auto relative = series.over_seeds(point, &Measurement::relative_squared_error);
     const Estimate rmse = root_mean_square(series, point);
+    const Band band = relative_error(series, point);
     return {{"samples", series.samples[point]},
+            {"runs", series.runs_per_seed[point] * static_cast<std::int64_t>(series.runs.size())},
             {"cpu_seconds", number(cpu.mean())},
             {"cpu_seconds_standard_error", number(cpu.standard_error())},
             {"wall_seconds", number(series.over_seeds(point, &Measurement::wall_seconds).mean())},
             {"rmse", number(rmse.value)},
             {"rmse_standard_error", number(rmse.standard_error)},
             {"relative_mse", number(relative.mean())},
-            {"relative_mse_standard_error", number(relative.standard_error())}};
+            {"relative_mse_standard_error", number(relative.standard_error())},
+            {"relative_rmse", number(band.value)},
+            {"relative_rmse_low", number(band.low)},
+            {"relative_rmse_high", number(band.high)}};
 }
 
 json series_json(const Series& series, const Study& study) {
     const Estimate exponent = slope(series), efficiency = relative_efficiency(series, baseline(study));
     json result{{"name", series.name},
+                {"model", series.recipe.model},
+                {"heuristic", text_or_null(series.recipe.heuristic)},
+                {"counts", numbers_or_null(series.recipe.counts)},
+                {"probabilities", numbers_or_null(series.recipe.probabilities)},
+                {"headline", series.headline},
                 {"unbiased", series.unbiased},
+                {"verdict", name(verdict(series))},
+                {"mean", number(series.pooled.mean)},
+                {"mean_standard_error", number(series.pooled.standard_error)},
+                {"bias_z", number(series.pooled.bias_z)},
+                {"tail_share", number(series.pooled.tail_share)},
+                {"to_10_percent", effort_json(effort_to(series, 0.1))},
+                {"to_1_percent", effort_json(effort_to(series, 0.01))},
                 {"slope", number(exponent.value)},
                 {"slope_standard_error", number(exponent.standard_error)},
                 {"efficiency_relative_to_power", number(efficiency.value)},
@@ -83,10 +118,38 @@ json series_json(const Series& series, const Study& study) {
     return result;
 }
 
+json variant_json(const Variant& variant) {
+    const auto& count = variant.instructions_per_sample;
+    return {{"cpu_seconds_per_sample", number(variant.seconds_per_sample.mean())},
+            {"cpu_seconds_per_sample_standard_error", number(variant.seconds_per_sample.standard_error())},
+            {"instructions_per_sample", count ? json(*count) : json(nullptr)},
+            {"relative_mse", number(variant.relative_squared_error.mean())},
+            {"relative_mse_standard_error", number(variant.relative_squared_error.standard_error())}};
+}
+
+json left_out_json(const LeftOut& left_out) {
+    const auto& [strategies, materials, composed, everything, seconds, instructions_by] = left_out;
+    const Estimate time = ratio(everything.seconds_per_sample, composed.seconds_per_sample);
+    json result{{"strategies", strategies},
+                {"materials", materials},
+                {"composed", variant_json(composed)},
+                {"everything", variant_json(everything)},
+                {"seconds", seconds},
+                {"instructions_by", instructions_by},
+                {"time_ratio", number(time.value)},
+                {"time_ratio_standard_error", number(time.standard_error)},
+                {"instructions_ratio", nullptr}};
+    if (composed.instructions_per_sample && everything.instructions_per_sample) {
+        result["instructions_ratio"] = *everything.instructions_per_sample / *composed.instructions_per_sample;
+    }
+    return result;
+}
+
 json study_json(const Study& study) {
     json result{{"name", study.name},
                 {"title", study.title},
                 {"description", study.description},
+                {"group", study.group},
                 {"kind", study.width > 0 ? "render" : "integral"},
                 {"strategies", study.strategies},
                 {"runs", study.seeds.size()},
@@ -95,7 +158,16 @@ json study_json(const Study& study) {
                   {"value", study.reference.value ? number(*study.reference.value) : json(nullptr)},
                   {"rmse", std::sqrt(study.reference.squared_error)},
                   {"relative_mse", study.reference.relative_squared_error},
-                  {"image", file_or_null(study.reference.image)}}}};
+                  {"image", text_or_null(study.reference.image)}}}};
+    if (study.reference.value) result["reference"]["value_error"] = std::sqrt(study.reference.squared_error);
+    if (const auto& agreed = study.reference.agreement) {
+        result["reference"]["agreement"] = {{"integrators", {"power", "balance"}},
+                                            {"block", agreed->block},
+                                            {"blocks", agreed->blocks},
+                                            {"worst_z", number(agreed->worst_z)},
+                                            {"limit", agreed->limit}};
+    }
+    if (study.left_out) result["left_out"] = left_out_json(*study.left_out);
     if (study.width > 0) result.update({{"width", study.width}, {"height", study.height}});
     for (const Series& series : study.series) result["integrators"].push_back(series_json(series, study));
     return result;
@@ -127,21 +199,29 @@ json stiff_json(const StiffStudy& study) {
 void print_table(const Study& study) {
     std::printf("\n%s: %s\n", study.name.c_str(), study.title.c_str());
     for (const std::string& strategy : study.strategies) std::printf("  %s\n", strategy.c_str());
-    std::printf("  %-12s %10s %8s %8s  %-21s %-21s %-15s %-17s %s\n", "estimator", "samples", "CPU s", "wall s", "RMSE",
-                "relative MSE", "slope", "efficiency/power", "fireflies");
+    std::printf("  %-24s %10s %8s %-21s %-21s %-16s %-18s %8s %s\n", "estimator", "samples", "CPU s", "RMSE",
+                "relative MSE", "slope", "efficiency/power", "bias z", "verdict");
     for (const Series& series : study.series) {
+        if (!series.headline) continue;
         const std::size_t last = series.samples.size() - 1;
         const Estimate rmse = root_mean_square(series, last), exponent = slope(series);
         const Estimate efficiency = relative_efficiency(series, baseline(study));
         const auto relative = series.over_seeds(last, &Measurement::relative_squared_error);
-        std::printf("  %-12s %10lld %8.3f %8.3f  %9.3g +- %-8.2g %9.3g +- %-8.2g %6.3f +- %-5.2g %7.3g +- %-6.2g",
+        std::printf("  %-24s %10lld %8.3g %9.3g +- %-8.2g %9.3g +- %-8.2g %6.3f +- %-6.2g %7.3g +- %-7.2g %8.2f %s",
                     series.name.c_str(), static_cast<long long>(series.samples[last]),
-                    series.over_seeds(last, &Measurement::cpu_seconds).mean(),
-                    series.over_seeds(last, &Measurement::wall_seconds).mean(), rmse.value, rmse.standard_error,
+                    series.over_seeds(last, &Measurement::cpu_seconds).mean(), rmse.value, rmse.standard_error,
                     relative.mean(), relative.standard_error(), exponent.value, exponent.standard_error,
-                    efficiency.value, efficiency.standard_error);
-        if (series.picture) std::printf(" %d", series.picture->fireflies);
-        std::printf("%s\n", series.unbiased ? "" : " (converges elsewhere)");
+                    efficiency.value, efficiency.standard_error, series.pooled.bias_z, name(verdict(series)).data());
+        if (series.picture) std::printf(", %d fireflies", series.picture->fireflies);
+        std::printf("%s\n", series.unbiased ? "" : " (in theory it converges elsewhere)");
+    }
+    if (const auto& left_out = study.left_out) {
+        const Estimate time = ratio(left_out->everything.seconds_per_sample, left_out->composed.seconds_per_sample);
+        std::printf("  with everything in: %.3f +- %.2g times the time", time.value, time.standard_error);
+        const auto &composed = left_out->composed.instructions_per_sample,
+                   &everything = left_out->everything.instructions_per_sample;
+        if (composed && everything) std::printf(", %.3f times the instructions", *everything / *composed);
+        std::printf("\n");
     }
 }
 
@@ -167,19 +247,41 @@ void write_csv(const std::filesystem::path& file, std::span<const Study> studies
     }
 }
 
-void write_json(const std::filesystem::path& file, std::span<const Study> studies, const StiffStudy& stiff,
-                int threads) {
+void write_json(const std::filesystem::path& file, std::span<const Study> studies,
+                const std::optional<StiffStudy>& stiff, const Settings& settings){
     json result{{"schema", 1},
                 {"machine",
                  {{"cpu", cpu_model()},
-                  {"threads", threads},
+                  {"threads", settings.threads},
+                  {"system", operating_system()},
                   {"compiler", compiler()},
                   {"flags", LUMIS_CXX_FLAGS},
                   {"date", today()}}},
-                {"settings", {{"seeds", studies.front().seeds}}}};
-    result["stiff"] = stiff_json(stiff);
-    for (const Study& study : studies) result["problems"].push_back(study_json(study));
-    open(file) << result.dump(2) << '\n';
-}
+                {"build",
+                 {{"version", LUMIS_VERSION},
+                  {"type", LUMIS_BUILD_TYPE},
+                  {"compiler", compiler()},
+                  {"flags", LUMIS_CXX_FLAGS},
+#ifdef NDEBUG
+                  {"assertions", false}}},
+#else
+                  {"assertions", true}}},
+#endif
+                {"settings",
+                 {{"seeds", settings.seeds},
+                  {"seconds_of_each_run_of_a_scene", settings.seconds},
+                  {"seconds_of_each_run_of_an_integral", settings.seconds_of_integrals()},
+                  {"reference_samples", settings.reference_samples},
+                  {"widest_image", settings.width}}},
+                {"rules",
+                 {{"bias_z_limit", Rules::bias_z_limit},
+                  {"tail_share_limit", Rules::tail_share_limit},
+                  {"tail_share_limit_of_images", Rules::tail_share_limit_of_images},
+                  {"slope_significance", Rules::slope_significance}}},
+                {"problems", json::array()}};
+if (stiff) result["stiff"] = stiff_json(*stiff);
+for (const Study& study : studies) result["problems"].push_back(study_json(study));
+open(file) << result.dump(2) << '\n';
+}  // namespace convergence
 
 }  // namespace convergence

@@ -1,10 +1,10 @@
 #include "stiff_study.hpp"
 
 #include "integrators.hpp"
+#include "near_mirror.hpp"
 #include "thread_clock.hpp"
 #include <lumis/lumis.hpp>
 
-#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <pcg_random.hpp>
 
 #include <cstdio>
@@ -19,51 +19,6 @@ using lumis::AreaLight;
 using lumis::BySolidAngle;
 
 constexpr double hemisphere = 2 * std::numbers::pi;
-
-// Towards the viewer, and the mirrored direction, where the light's centre is.
-template <class T>
-glm::vec<3, T> viewer() {
-    return {T(0.6), T(0), T(0.8)};
-}
-template <class T>
-glm::vec<3, T> mirrored() {
-    return {T(-0.6), T(0), T(0.8)};
-}
-
-// The integral of brdf cos over a cone about the mirrored direction that stays above the horizon, in double. The lobe is
-// anything from a ten-thousandth to ten times as wide as the cone: the versine is integrated on a logarithmic scale, the
-// azimuth by the trapezoid rule, which converges exponentially for a periodic integrand.
-double cone_answer(double alpha, double solid_angle) {
-    const lumis::Ggx<double> ggx{glm::dvec2{alpha}};
-    const lumis::Frame<double> frame{mirrored<double>()};
-    constexpr int turns = 256;
-    const auto ring = [&](double log_versine) {
-        const double versine = std::exp(log_versine);
-        double sum = 0;
-        for (int i = 0; i < turns; ++i) {
-            const glm::dvec3 wi = frame.to_world(lumis::direction_at(versine, i / double{turns}));
-            sum += ggx.brdf(viewer<double>(), wi) * wi.z;
-        }
-        return sum * versine * hemisphere / turns;
-    };
-    using boost::math::quadrature::gauss_kronrod;
-    return gauss_kronrod<double, 31>::integrate(ring, std::log(1e-16), std::log(solid_angle / hemisphere), 15, 1e-10);
-}
-
-// The same over the hemisphere: the mean of what the samples of visible normals are worth.
-double hemisphere_answer(double alpha) {
-    const lumis::GgxReflection<double> bsdf{viewer<double>(), glm::dvec2{alpha}};
-    const auto worth = [&](double u, double v) {
-        const auto drawn = bsdf.sample({u, v});
-        return drawn.pdf > 0 ? bsdf.ggx().brdf(viewer<double>(), drawn.value) * drawn.value.z / drawn.pdf : 0.0;
-    };
-    using boost::math::quadrature::gauss_kronrod;
-    return gauss_kronrod<double, 31>::integrate(
-        [&](double u) {
-            return gauss_kronrod<double, 31>::integrate([&](double v) { return worth(u, v); }, 0, 1, 5, 1e-9);
-        },
-        0, 1, 10, 1e-8);
-}
 
 // Runs one estimator for a time.
 template <class Estimator, class F>
@@ -99,8 +54,7 @@ std::vector<StiffCell> measure_all(float alpha, const Light& light, double answe
     return {measure(Integrators::compose(bsdf, risen), f, answer, runs, seconds)...};
 }
 
-using AllIntegrators = std::tuple<tracer::BsdfAlone, tracer::LightAlone, tracer::Balance, tracer::Power,
-                                  tracer::OneOfAll, tracer::Average>;
+using tracer::AllIntegrators;
 
 template <class... Integrators>
 std::vector<std::string> names(std::type_identity<std::tuple<Integrators...>>) {
@@ -111,13 +65,14 @@ std::vector<StiffCell> measure_case(double alpha, double solid_angle, int runs, 
     constexpr std::type_identity<AllIntegrators> all;
     const auto roughness = static_cast<float>(alpha);
     if (solid_angle == hemisphere) {
-        return measure_all(roughness, lumis::UniformHemisphere<float>{}, hemisphere_answer(alpha), runs, seconds, all);
+        return measure_all(roughness, lumis::UniformHemisphere<float>{}, reflected_hemisphere(alpha).value, runs,
+                           seconds, all);
     }
     // A sphere at distance 1 whose radius is the sine of the cone's half-angle.
     const double versine = solid_angle / hemisphere;
     const auto radius = static_cast<float>(lumis::sine_of_versine(versine));
     const AreaLight<lumis::Sphere<float>, BySolidAngle> light{{mirrored<float>(), radius}, glm::vec3{0}};
-    return measure_all(roughness, light, cone_answer(alpha, light.solid_angle()), runs, seconds, all);
+    return measure_all(roughness, light, reflected_cone(alpha, light.solid_angle()).value, runs, seconds, all);
 }
 
 }  // namespace

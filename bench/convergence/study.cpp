@@ -1,46 +1,200 @@
 #include "study.hpp"
 
+#include <boost/math/distributions/students_t.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
 namespace convergence {
 
-Estimate slope(const Series& series) {
-    lumis::RunningMoments<> slopes;
-    for (const auto& run : series.runs) {
-        lumis::RunningMoments<> x, y;
-        for (const Measurement& m : run) {
-            x.add(std::log(m.cpu_seconds));
-            y.add(0.5 * std::log(m.relative_squared_error));
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double squared(double x) {
+    return x * x;
+}
+
+// The least-squares slope of log relative error over log CPU time, without one of the seeds. A point whose error
+// vanishes in that of the reference says nothing.
+double slope_without(const Series& series, std::size_t left_out) {
+    std::vector<double> x, y;
+    for (std::size_t point = 0; point < series.samples.size(); ++point) {
+        double time = 0, error = 0;
+        for (std::size_t seed = 0; seed < series.runs.size(); ++seed) {
+            if (seed == left_out) continue;
+            time += series.runs[seed][point].cpu_seconds;
+            error += series.runs[seed][point].relative_squared_error;
         }
-        double xx = 0, xy = 0;
-        for (const Measurement& m : run) {
-            const double from_mean = std::log(m.cpu_seconds) - x.mean();
-            xx += from_mean * from_mean;
-            xy += from_mean * (0.5 * std::log(m.relative_squared_error) - y.mean());
-        }
-        slopes.add(xy / xx);
+        if (!(error > 0 && time > 0)) continue;
+        x.push_back(std::log(time));
+        y.push_back(0.5 * std::log(error));
     }
-    return {slopes.mean(), slopes.standard_error()};
+    if (x.size() < 2) return nan;
+    const auto count = static_cast<double>(x.size());
+    const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / count;
+    double xx = 0, xy = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        xx += (x[i] - mean_x) * (x[i] - mean_x);
+        xy += (x[i] - mean_x) * y[i];
+    }
+    return xy / xx;
+}
+
+// The least error that the slope of an integral can have: the logarithm of a mean over n squares of normal errors has the
+// variance 2 / n, which a few seeds that lie together by chance do not show.
+double slope_error_of_normal(const Series& series) {
+    const std::size_t points = series.samples.size();
+    if (std::isnan(series.pooled.mean) || series.runs_per_seed.size() != points) return 0;
+    lumis::RunningMoments<> x;
+    for (const std::int64_t samples : series.samples) x.add(std::log(static_cast<double>(samples)));
+    double variance = 0;
+    const double xx = x.variance() * static_cast<double>(points - 1);
+    for (std::size_t i = 0; i < points; ++i) {
+        const auto runs = static_cast<double>(series.runs_per_seed[i]) * static_cast<double>(series.runs.size());
+        variance += squared((std::log(static_cast<double>(series.samples[i])) - x.mean()) / xx) / (2 * runs);
+    }
+    return std::sqrt(variance);
+}
+
+// Student's t with one degree of freedom less than there are seeds: exceeded with the probability `tail`.
+double student_t(const Series& series, double tail) {
+    if (series.runs.size() < 2) return nan;
+    const boost::math::students_t t{static_cast<double>(series.runs.size() - 1)};
+    return quantile(complement(t, tail));
+}
+
+// Where the efficiency is read off.
+std::size_t firmest_point(const Series& series) {
+    const std::size_t last = series.samples.size() - 1;
+    if (!series.unbiased || verdict(series) == Verdict::Plateau || series.runs_per_seed.empty()) return last;
+    std::size_t best = last;
+    for (std::size_t i = 0; i < last; ++i) {
+        if (series.runs_per_seed[i] > series.runs_per_seed[best]) best = i;
+    }
+    return best;
+}
+
+}  // namespace
+
+Estimate ratio(const lumis::RunningMoments<>& numerator, const lumis::RunningMoments<>& denominator) {
+    const double value = numerator.mean() / denominator.mean();
+    return {value, value * std::hypot(numerator.standard_error() / numerator.mean(),
+                                      denominator.standard_error() / denominator.mean())};
+}
+
+Estimate slope(const Series& series) {
+    const std::size_t seeds = series.runs.size();
+    lumis::RunningMoments<> without_one;
+    for (std::size_t seed = 0; seed < seeds; ++seed) without_one.add(slope_without(series, seed));
+    const double variance_factor = squared(static_cast<double>(seeds) - 1) / static_cast<double>(seeds);
+    const double jackknife = std::sqrt(variance_factor * without_one.variance());
+    return {slope_without(series, seeds), std::max(jackknife, slope_error_of_normal(series))};
 }
 
 Estimate root_mean_square(const Series& series, std::size_t point) {
-    const auto squared = series.over_seeds(point, &Measurement::squared_error);
-    const double root = std::sqrt(std::max(squared.mean(), 0.0));
-    return {root, squared.standard_error() / (2 * root)};
+    const auto errors = series.over_seeds(point, &Measurement::squared_error);
+    const double root = std::sqrt(std::max(errors.mean(), 0.0));
+    return {root, errors.standard_error() / (2 * root)};
+}
+
+Band relative_error(const Series& series, std::size_t point) {
+    const auto errors = series.over_seeds(point, &Measurement::relative_squared_error);
+    const double root = std::sqrt(std::max(errors.mean(), 0.0));
+    const double half_width = student_t(series, 0.025) * errors.standard_error() / (2 * errors.mean());
+    return {root, root * std::exp(-half_width), root * std::exp(half_width)};
+}
+
+double slope_limit(const Series& series) {
+    return student_t(series, Rules::slope_significance / 2);
+}
+
+double tail_share(std::vector<double> squares) {
+    const double all = std::accumulate(squares.begin(), squares.end(), 0.0);
+    if (!(all > 0)) return 0;
+    const auto largest = squares.begin() + static_cast<std::ptrdiff_t>((squares.size() + 999) / 1000);
+    std::nth_element(squares.begin(), largest - 1, squares.end(), std::greater<>{});
+    return std::accumulate(squares.begin(), largest, 0.0) / all;
+}
+
+Pooled pool(std::span<const double> means, double answer, double answer_error) {
+    lumis::RunningMoments<> moments;
+    for (const double mean : means) moments.add(mean);
+    std::vector<double> squares;
+    for (const double mean : means) squares.push_back(squared(mean - moments.mean()));
+    // Sums of numbers in double are off by their rounding, whatever their spread.
+    const double rounding = 1e-13 * answer;
+    const double error = std::hypot(moments.standard_error(), answer_error, rounding);
+    const bool nothing_hit = std::ranges::all_of(means, [](double mean) { return mean == 0; });
+    return {moments.mean(), moments.standard_error(), (moments.mean() - answer) / error,
+            nothing_hit ? 1 : tail_share(std::move(squares))};
+}
+
+Verdict verdict(const Series& series) {
+    bool exact = true;
+    for (std::size_t i = 0; i < series.samples.size(); ++i) exact = exact && relative_error(series, i).value < 1e-12;
+    if (exact) return Verdict::Exact;
+    const bool image = std::isnan(series.pooled.mean);
+    const double tail_limit = image ? Rules::tail_share_limit_of_images : Rules::tail_share_limit;
+    if (series.pooled.tail_share > tail_limit) return Verdict::HeavyTails;
+    if (std::abs(series.pooled.bias_z) > Rules::bias_z_limit) return Verdict::Plateau;
+    const Estimate exponent = slope(series);
+    const bool as_expected = std::abs(exponent.value + 0.5) <= slope_limit(series) * exponent.standard_error;
+    return as_expected ? Verdict::Converges : Verdict::Unexplained;
+}
+
+std::string_view name(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::Exact:
+            return "exact";
+        case Verdict::HeavyTails:
+            return "heavy tails";
+        case Verdict::Plateau:
+            return "plateau";
+        case Verdict::Converges:
+            return "converges";
+        case Verdict::Unexplained:
+            break;
+    }
+    return "unexplained";
+}
+
+std::optional<Effort> effort_to(const Series& series, double target) {
+    const auto at = [&](std::size_t point) {
+        return Effort{static_cast<double>(series.samples[point]),
+                      series.over_seeds(point, &Measurement::cpu_seconds).mean(), false};
+    };
+    const auto extrapolated = [&](std::size_t point) {
+        const Effort from = at(point);
+        const double factor = std::max(squared(relative_error(series, point).value / target), 1 / from.samples);
+        return Effort{factor * from.samples, factor * from.cpu_seconds, true};
+    };
+    const std::size_t points = series.samples.size();
+    std::size_t reached = 0;
+    while (reached < points && !(relative_error(series, reached).value <= target)) ++reached;
+    if (reached == 0) return extrapolated(0);
+    if (reached == points) {
+        if (!series.unbiased || verdict(series) == Verdict::Plateau) return {};
+        return extrapolated(points - 1);
+    }
+    const double before = relative_error(series, reached - 1).value, after = relative_error(series, reached).value;
+    const Effort low = at(reached - 1), high = at(reached);
+    const double part = after > 0 ? std::log(before / target) / std::log(before / after) : 1;
+    return Effort{low.samples * std::pow(high.samples / low.samples, part),
+                  low.cpu_seconds * std::pow(high.cpu_seconds / low.cpu_seconds, part), false};
 }
 
 Estimate relative_efficiency(const Series& series, const Series& baseline) {
     if (&series == &baseline) return {1, 0};
-    const auto at_end = [](const Series& s, double Measurement::*figure) {
-        return s.over_seeds(s.samples.size() - 1, figure);
+    const auto of_both = [&](double Measurement::*figure) {
+        return ratio(baseline.over_seeds(firmest_point(baseline), figure),
+                     series.over_seeds(firmest_point(series), figure));
     };
-    const auto error = [&](const Series& s) { return at_end(s, &Measurement::relative_squared_error); };
-    const auto time = [&](const Series& s) { return at_end(s, &Measurement::cpu_seconds); };
-    const auto relative_variance = [](const lumis::RunningMoments<>& m) {
-        return std::pow(m.standard_error() / m.mean(), 2);
-    };
-    const double ratio = error(baseline).mean() * time(baseline).mean() / (error(series).mean() * time(series).mean());
-    const double variance = relative_variance(error(baseline)) + relative_variance(time(baseline)) +
-                            relative_variance(error(series)) + relative_variance(time(series));
-    return {ratio, ratio * std::sqrt(variance)};
+    const Estimate error = of_both(&Measurement::relative_squared_error), time = of_both(&Measurement::cpu_seconds);
+    const double value = error.value * time.value;
+    return {value, std::abs(value) * std::hypot(error.standard_error / error.value, time.standard_error / time.value)};
 }
 
 const Series& baseline(const Study& study) {

@@ -4,17 +4,17 @@
 
 #include <lumis/statistics/running_moments.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace convergence {
 
-// One run at one sample count, against the reference, whose own squared error has been subtracted.
+// One seed at one sample count, against the reference, whose own squared error has been subtracted.
 struct Measurement {
     double cpu_seconds, wall_seconds;
     double squared_error, relative_squared_error;
@@ -28,12 +28,30 @@ struct Picture {
     int fireflies;  // lone pixels far brighter than they should be
 };
 
+// How an estimator is composed; what does not apply is empty.
+struct Recipe {
+    std::string model, heuristic{};
+    std::vector<int> counts{};
+    std::vector<double> probabilities{};
+};
+
+// What all samples of all seeds say together.
+struct Pooled {
+    double mean{}, standard_error{};  // NaN for an image
+    double bias_z{};                  // distance of the mean from the answer, in standard errors of both
+    double tail_share{};              // of all squared deviations, what the largest thousandth of them holds
+};
+
 struct Series {
     std::string name;
-    bool unbiased = true;
+    bool unbiased = true;                        // in theory
     std::vector<std::int64_t> samples;           // growing
     std::vector<std::vector<Measurement>> runs;  // by seed, then by sample count
     std::optional<Picture> picture;
+    Recipe recipe;
+    bool headline = true;                     // one of the few that a plot has room for
+    std::vector<std::int64_t> runs_per_seed;  // by sample count: independent runs whose mean a measurement is
+    Pooled pooled;
 
     // Mean over the seeds, at one sample count.
     [[nodiscard]] lumis::RunningMoments<> over_seeds(std::size_t point, double Measurement::*figure) const {
@@ -43,34 +61,93 @@ struct Series {
     }
 };
 
+// The test that two renderings of one reference agree, see agreement.hpp.
+struct Agreement {
+    int block, blocks;  // pixels along the edge of a block, and how many there are
+    double worst_z, limit;
+};
+
 struct Reference {
     std::string source;
     std::optional<double> value;                       // of an integral
     double squared_error{}, relative_squared_error{};  // its own; 0 for a closed form
     std::string image;                                 // file; empty for an integral
+    std::optional<Agreement> agreement;                // of an image
+};
+
+// One of two ways to render a scene, see left_out.hpp.
+struct Variant {
+    lumis::RunningMoments<> seconds_per_sample, relative_squared_error;  // over the seeds
+    std::optional<double> instructions_per_sample;
+};
+struct LeftOut {
+    std::vector<std::string> strategies, materials;
+    Variant composed, everything;
+    double seconds;               // CPU time of each run
+    std::string instructions_by;  // how they were counted, or why not
 };
 
 struct Study {
-    std::string name, title, description;
+    std::string name, group, title, description;
     std::vector<std::string> strategies;  // that its estimators consist of
     int width{}, height{};                // of an image; 0 for an integral
     Reference reference;
     std::vector<Series> series;
     std::vector<std::uint64_t> seeds;
+    std::optional<LeftOut> left_out;
 };
 
 struct Estimate {
     double value, standard_error;
 };
 
-// The exponent of relative error over CPU time: each seed's least-squares slope of log against log, averaged. -1/2 is
-// Monte Carlo's. What is said of efficiency goes by relative errors as well: a few bright pixels rule an absolute one.
+// Of two independent means.
+[[nodiscard]] Estimate ratio(const lumis::RunningMoments<>& numerator, const lumis::RunningMoments<>& denominator);
+
+// The exponent of relative error over CPU time: the least-squares slope of log against log, with its error by leaving
+// out one seed at a time (the jackknife), or of as many normal errors, whichever is larger. -1/2 is Monte Carlo's. What
+// is said of efficiency goes by relative errors as well: a few bright pixels rule an absolute one.
 [[nodiscard]] Estimate slope(const Series& series);
 
 // Root mean square error at one sample count.
 [[nodiscard]] Estimate root_mean_square(const Series& series, std::size_t point);
 
-// 1 / (relative squared error x CPU time) at the last sample count, over that of the baseline.
+// The same of the relative error, and its 95 % band: Student's t of the logarithm.
+struct Band {
+    double value, low, high;
+};
+[[nodiscard]] Band relative_error(const Series& series, std::size_t point);
+
+// |slope + 1/2| may be this many standard errors.
+[[nodiscard]] double slope_limit(const Series& series);
+
+struct Rules {
+    static constexpr double bias_z_limit = 5, slope_significance = 1e-4;
+    // The pixels of an image are not alike: even without outliers, few of them hold more of its error.
+    static constexpr double tail_share_limit = 0.2, tail_share_limit_of_images = 0.5;
+};
+
+// The part of a sum of squares that its largest thousandth (at least one) holds. 0 if all are 0.
+[[nodiscard]] double tail_share(std::vector<double> squares);
+
+// What pooled runs of one length say; the answer may itself be off by its error.
+[[nodiscard]] Pooled pool(std::span<const double> means, double answer, double answer_error);
+
+// What the measurement says about where an estimator converges; the first that fits, see SCHEMA.md.
+enum class Verdict { Exact, HeavyTails, Plateau, Converges, Unexplained };
+[[nodiscard]] Verdict verdict(const Series& series);
+[[nodiscard]] std::string_view name(Verdict verdict);
+
+// The effort that takes an estimator to a relative error; where none was measured that small, or that large, as the
+// slope -1/2 has it. Nothing if a plateau is in the way.
+struct Effort {
+    double samples, cpu_seconds;
+    bool extrapolated;
+};
+[[nodiscard]] std::optional<Effort> effort_to(const Series& series, double relative_error);
+
+// 1 / (relative squared error x CPU time) over that of the baseline, where most runs stand behind it: an unbiased
+// estimator has the same at every sample count. One that converges elsewhere is judged by its longest run.
 [[nodiscard]] Estimate relative_efficiency(const Series& series, const Series& baseline);
 
 // The series called power.

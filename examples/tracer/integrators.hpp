@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <tuple>
 
 namespace tracer {
 
@@ -66,5 +67,7 @@ struct OneOfAll {
                           lumis::choose(lights.risen ? share : 0.0f, lights.strategy)...);
     }
 };
+
+using AllIntegrators = std::tuple<BsdfAlone, LightAlone, Balance, Power, OneOfAll, Average>;
 
 }  // namespace tracer

@@ -12,12 +12,13 @@
 #include <pcg_random.hpp>
 
 #include <functional>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
 namespace tracer {
 
-template <Scene S>
+template <Scene S, class Integrators = AllIntegrators>
 class SceneRenderer final : public Renderer {
   public:
     SceneRenderer(S scene, const SceneOptions& options, const Camera& camera) : scene_{std::move(scene)} {
@@ -77,12 +78,12 @@ class SceneRenderer final : public Renderer {
     // Calls visit with the integrator of that name.
     template <class Visit>
     static auto with_integrator(std::string_view name, Visit visit) {
-        return with_first_of<BsdfAlone, LightAlone, Balance, Power, OneOfAll, Average>(name, visit);
+        return with_first_of(std::type_identity<Integrators>{}, name, visit);
     }
     template <class First, class... Rest, class Visit>
-    static auto with_first_of(std::string_view name, Visit visit) {
+    static auto with_first_of(std::type_identity<std::tuple<First, Rest...>>, std::string_view name, Visit visit) {
         if constexpr (sizeof...(Rest) > 0) {
-            if (name != First::name) return with_first_of<Rest...>(name, visit);
+            if (name != First::name) return with_first_of(std::type_identity<std::tuple<Rest...>>{}, name, visit);
         }
         return visit(std::type_identity<First>{});
     }

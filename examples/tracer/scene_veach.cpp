@@ -1,79 +1,12 @@
-// Veach's plates and spheres (Veach 1997, figure 9.2): four plates of rising roughness under lights of rising size.
-#include "materials.hpp"
+#include "scene_veach.hpp"
+
 #include "scene_renderer.hpp"
 #include "scenes.hpp"
 
-#include <array>
-
 namespace tracer {
 
-namespace {
-
-struct SphereLight {
-    lumis::Sphere<float> shape;
-    float radiance;
-};
-constexpr std::array<SphereLight, 5> lights{{
-    {{{10, 10, 4}, 0.5f}, 800},
-    {{{-3.75f, 0, 0}, 0.03333f}, 901.803f},
-    {{{-1.25f, 0, 0}, 0.1f}, 100},
-    {{{1.25f, 0, 0}, 0.3f}, 11.1111f},
-    {{{3.75f, 0, 0}, 0.9f}, 1.23457f},
-}};
-
-struct Plate {
-    glm::vec2 front, back;  // (y, z) of two opposite edges
-    float alpha;
-};
-constexpr std::array<Plate, 4> plates{{
-    {{-2.70651f, 0.25609f}, {-2.08375f, -0.526323f}, 0.005f},
-    {{-3.28825f, 1.36972f}, {-2.83856f, 0.476536f}, 0.02f},
-    {{-3.73096f, 2.70046f}, {-3.43378f, 1.74564f}, 0.05f},
-    {{-3.99615f, 4.0667f}, {-3.82069f, 3.08221f}, 0.1f},
-}};
-
-class Veach {
-  public:
-    using Material = std::variant<Diffuse, Coated>;
-
-    Veach() {
-        materials_.push_back(Diffuse{glm::vec3{0.4f}});
-        geometry_.add(lumis::Parallelogram{glm::vec3{-10, -4.14615f, -10}, glm::vec3{20, 0, 0}, glm::vec3{0, 0, 20}},
-                      {0});
-        geometry_.add(lumis::Parallelogram{glm::vec3{-10, -10, -2}, glm::vec3{20, 0, 0}, glm::vec3{0, 20, 0}}, {0});
-        for (const Plate& plate : plates) {
-            const glm::vec2 depth = plate.back - plate.front;
-            geometry_.add(lumis::Parallelogram{glm::vec3{-4, plate.front.x, plate.front.y}, glm::vec3{8, 0, 0},
-                                               glm::vec3{0, depth.x, depth.y}},
-                          {materials_.size()});
-            materials_.push_back(Coated{{0.07f, 0.09f, 0.13f}, plate.alpha, 2});
-        }
-        for (const SphereLight& light : lights) geometry_.add(light.shape, {0, glm::vec3{light.radiance}});
-        geometry_.commit();
-    }
-
-    [[nodiscard]] const Geometry& geometry() const { return geometry_; }
-    [[nodiscard]] const Material& material(const Surface& surface) const { return materials_[surface.material]; }
-    [[nodiscard]] static glm::vec3 background(const glm::vec3& /*w*/) { return glm::vec3{0}; }
-
-    [[nodiscard]] static auto lights_at(const Vertex& vertex) {
-        const auto seen = [&](const SphereLight& light) {
-            using Strategy = lumis::AreaLight<lumis::Sphere<float>, lumis::BySolidAngle>;
-            const float height = glm::dot(light.shape.center - vertex.position, vertex.frame.normal());
-            return Light<Strategy>{Strategy{light.shape, vertex.position}, height > -light.shape.radius};
-        };
-        return std::apply([&](const auto&... light) { return std::tuple{seen(light)...}; }, lights);
-    }
-
-  private:
-    Geometry geometry_;
-    std::vector<Material> materials_;
-};
-
-}  // namespace
-
 std::unique_ptr<Renderer> make_veach(const SceneOptions& options) {
-    return std::make_unique<SceneRenderer<Veach>>(Veach{}, options, Camera{{0, 2, 15}, {0, -2, 2.5f}, {0, 1, 0}, 28});
+    return std::make_unique<SceneRenderer<Veach>>(Veach{}, options, Veach::camera());
 }
 
 }  // namespace tracer

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,8 +17,12 @@ namespace fs = std::filesystem;
 
 // A folder of its own that goes away with the test.
 struct Folder {
-    fs::path path = fs::temp_directory_path() / ("lumis_image_test_" + std::to_string(std::rand()));
-    Folder() { fs::create_directory(path); }
+    fs::path path;
+    Folder() {
+        do {
+            path = fs::temp_directory_path() / ("lumis_image_test_" + std::to_string(std::random_device{}()));
+        } while (!fs::create_directory(path));  // another test's
+    }
     ~Folder() { fs::remove_all(path); }
     [[nodiscard]] std::string file(const char* name) const { return (path / name).string(); }
 };

@@ -1,0 +1,131 @@
+#include "left_out.hpp"
+
+#include <lumis/statistics/error_metrics.hpp>
+
+#if __has_include(<valgrind/callgrind.h>)
+#include <valgrind/callgrind.h>
+#define LUMIS_CALLGRIND
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+namespace convergence {
+
+namespace {
+
+using tracer::Film;
+
+// By the names of their types, as tracer::type_name writes them.
+constexpr std::array<std::string_view, 7> all_strategies{
+    "CosineHemisphere",        "GgxReflection",    "Mixture",       "PerfectReflection",
+    "AreaLight<Parallelogram", "AreaLight<Sphere", "EnvironmentMap"};
+constexpr std::array<std::string_view, 4> all_materials{"Diffuse", "Coated", "Metal", "Mirror"};
+
+// Those that occur in none of the estimators' types.
+std::vector<std::string> missing(std::span<const std::string_view> all, const std::vector<std::string>& estimators,
+                                 bool at_start) {
+    std::vector<std::string> result;
+    for (const std::string_view name : all) {
+        const bool found = std::ranges::any_of(estimators, [&](const std::string& estimator) {
+            return at_start ? estimator.starts_with(std::string{name} + ":")
+                            : estimator.find(name) != std::string::npos;
+        });
+        if (found) continue;
+        result.emplace_back(name);
+        if (name.find('<') != std::string_view::npos) result.back() += '>';
+    }
+    return result;
+}
+
+constexpr int counted_width = 48, counted_height = 32, counted_samples = 2;
+
+// Of this program under callgrind, which counts what render_for_instructions marks.
+std::optional<double> instructions_per_sample(const std::string& scene, const std::string& variant) {
+    const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+    const std::string command = "valgrind --tool=callgrind --instr-atstart=no --callgrind-out-file=/dev/null '" +
+                                program + "' --instructions " + scene + " " + variant + " " +
+                                std::to_string(counted_samples) + " 2>&1";
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe{popen(command.c_str(), "r"), pclose};
+    if (!pipe) return {};
+    double collected = 0;
+    for (std::array<char, 512> line{}; std::fgets(line.data(), line.size(), pipe.get()) != nullptr;) {
+        constexpr std::string_view label = "Collected : ";
+        const auto at = std::string_view{line.data()}.find(label);
+        if (at != std::string_view::npos) collected = std::atof(line.data() + at + label.size());
+    }
+    if (!(collected > 0)) return {};
+    return collected / (counted_width * counted_height * counted_samples);
+}
+
+std::unique_ptr<tracer::Renderer> make(const std::string& scene, const std::string& variant,
+                                       const tracer::SceneOptions& options) {
+    if (variant == "everything") return make_with_everything(scene, options);
+    return tracer::find_scene(scene)->make(options);
+}
+
+}  // namespace
+
+LeftOut left_out(const std::string& scene, const tracer::Renderer& composed, const tracer::SceneOptions& options,
+                 const ReferenceImage& reference, const std::vector<std::uint64_t>& seeds, double seconds,
+                 const Progress& progress) {
+    const std::vector<std::string> estimators = composed.strategies("power");
+    LeftOut result{
+        missing(all_strategies, estimators, false), missing(all_materials, estimators, true), {}, {}, seconds, {}};
+    const auto everything = make_with_everything(scene, options);
+    struct Runner {
+        const tracer::Renderer& renderer;
+        Variant& variant;
+        int samples;
+    };
+    std::array runners{Runner{composed, result.composed, 0}, Runner{*everything, result.everything, 0}};
+    for (Runner& runner : runners) {
+        Film trial{options.width, options.height};
+        const double taken = runner.renderer.add_pass(trial, "power", 2, 0, 0);
+        runner.samples = std::max(2, static_cast<int>(2 * seconds / taken));
+    }
+    for (const std::uint64_t seed : seeds) {
+        for (const Runner& runner : runners) {
+            progress(scene + (&runner == &runners[0] ? ", composed" : ", with everything in"));
+            Film film{options.width, options.height};
+            const double taken = runner.renderer.add_pass(film, "power", runner.samples, seed, 0);
+            const double pixels = static_cast<double>(film.sums.size());
+            runner.variant.seconds_per_sample.add(taken / (pixels * runner.samples));
+            const tracer::Image image = film.image();
+            const double error =
+                lumis::relative_mean_squared_error(values(image), values(reference.image), reference.floor);
+            // Samples are whole: brought to exactly `seconds`.
+            runner.variant.relative_squared_error.add((error - reference.relative_squared_error) * taken / seconds);
+        }
+    }
+    progress(scene + ", counting instructions");
+    result.composed.instructions_per_sample = instructions_per_sample(scene, "composed");
+    if (result.composed.instructions_per_sample) {
+        result.everything.instructions_per_sample = instructions_per_sample(scene, "everything");
+        result.instructions_by = "callgrind, one thread";
+    } else {
+        result.instructions_by = "missing: needs valgrind and its headers";
+    }
+    return result;
+}
+
+void render_for_instructions(const std::string& scene, const std::string& variant, int samples) {
+    const auto renderer = make(scene, variant, {counted_width, counted_height, {}});
+    Film film{counted_width, counted_height};
+    renderer->add_pass(film, "power", 1, 1, 0);  // threads and tables are there from now on
+#ifdef LUMIS_CALLGRIND
+    CALLGRIND_START_INSTRUMENTATION;
+    renderer->add_pass(film, "power", samples, 1, 1);
+    CALLGRIND_STOP_INSTRUMENTATION;
+#else
+    static_cast<void>(samples);
+#endif
+}
+
+}  // namespace convergence

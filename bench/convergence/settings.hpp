@@ -1,0 +1,25 @@
+// What a run of the program is asked to do.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace convergence {
+
+struct Settings {
+    std::filesystem::path output = "report";
+    std::vector<std::uint64_t> seeds;
+    double seconds = 0.4;
+    int width = 240;
+    int reference_samples = 128;
+    int threads = 1;
+    std::string environment;
+    std::vector<std::string> problems;  // none: all
+
+    // An integral is one number where an image is thousands: it is run for less, in more estimators.
+    [[nodiscard]] double seconds_of_integrals() const { return seconds / 400; }
+};
+
+}  // namespace convergence

@@ -1,0 +1,191 @@
+// The statistics of the report, on synthetic runs whose answers are known.
+#include "study.hpp"
+
+#include "catch.hpp"
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+using namespace convergence;
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+// 8 seeds of 256 pieces of `count` estimates; the mean of a piece is piece(engine). A sample takes a microsecond.
+template <class Piece>
+Series measured(Piece piece, double answer, std::int64_t count = 100) {
+    constexpr std::size_t seeds = 8, pieces = 256;
+    Series series;
+    series.name = "synthetic";
+    for (std::size_t n = pieces, length = 1; n >= 1; n /= 4, length *= 4) {
+        series.samples.push_back(count * static_cast<std::int64_t>(length));
+        series.runs_per_seed.push_back(static_cast<std::int64_t>(n));
+    }
+    std::vector<double> all;
+    for (std::size_t seed = 0; seed < seeds; ++seed) {
+        std::mt19937_64 engine{seed};
+        std::vector<double> means(pieces);
+        for (double& mean : means) mean = piece(engine);
+        all.insert(all.end(), means.begin(), means.end());
+        std::vector<Measurement> run;
+        for (const std::int64_t samples : series.samples) {
+            lumis::RunningMoments<> squares;
+            for (const double mean : means) squares.add((mean - answer) * (mean - answer));
+            const double seconds = 1e-6 * static_cast<double>(samples);
+            run.push_back({seconds, seconds, squares.mean(), squares.mean() / (answer * answer)});
+            for (std::size_t i = 0; i < means.size() / 4; ++i) {
+                means[i] = (means[4 * i] + means[4 * i + 1] + means[4 * i + 2] + means[4 * i + 3]) / 4;
+            }
+            means.resize(means.size() / 4);
+        }
+        series.runs.push_back(run);
+    }
+    series.pooled = pool(all, answer, 0);
+    return series;
+}
+
+Series normal(double mean, double deviation) {
+    return measured([=](auto& engine) { return std::normal_distribution{mean, deviation}(engine); }, 2);
+}
+
+// Errors that follow a power of the time exactly.
+Series power_law(double constant, double exponent) {
+    Series series;
+    for (const std::int64_t samples : {100, 400, 1600}) series.samples.push_back(samples);
+    for (int seed = 0; seed < 4; ++seed) {
+        std::vector<Measurement> run;
+        for (const std::int64_t samples : series.samples) {
+            const double seconds = 1e-3 * static_cast<double>(samples);
+            const double error = constant * std::pow(seconds, exponent);
+            run.push_back({seconds, seconds, error * error, error * error});
+        }
+        series.runs.push_back(run);
+    }
+    return series;
+}
+
+}  // namespace
+
+TEST_CASE("the slope of an exact power law is its exponent") {
+    for (const double exponent : {-0.5, -1.0, 0.0}) {
+        const Estimate fit = slope(power_law(0.2, exponent));
+        CHECK_THAT(fit.value, WithinAbs(exponent, 1e-12));
+        CHECK(fit.standard_error <= 1e-12);
+    }
+}
+
+TEST_CASE("the jackknife's error is that of the slope") {
+    // Over many studies, slopes stray about -1/2 by what each of them claims.
+    lumis::RunningMoments<> slopes, claims;
+    std::mt19937_64 seeds{1};
+    for (int i = 0; i < 200; ++i) {
+        std::mt19937_64 noise{seeds()};
+        const Estimate fit = slope(measured([&](auto&) { return std::normal_distribution{2.0, 0.1}(noise); }, 2));
+        slopes.add(fit.value);
+        claims.add(fit.standard_error);
+    }
+    CHECK_THAT(slopes.mean(), WithinAbs(-0.5, 0.02));  // the logarithm of a mean square of few is biased
+    CHECK_THAT(claims.mean(), WithinRel(std::sqrt(slopes.variance()), 0.25));
+}
+
+TEST_CASE("seeds that lie together by chance do not make a slope certain") {
+    Series series = power_law(0.2, -0.62);
+    series.runs_per_seed = {16, 4, 1};
+    series.pooled = {1, 0.1, 0, 0};
+    CHECK(slope(series).standard_error >= 0.05);
+    CHECK(verdict(series) == Verdict::Converges);
+}
+
+TEST_CASE("what is unbiased converges") {
+    const Series series = normal(2, 0.1);
+    CHECK(verdict(series) == Verdict::Converges);
+    CHECK(std::abs(series.pooled.bias_z) <= 4);
+    CHECK(series.pooled.tail_share <= 0.05);
+}
+
+TEST_CASE("a bias is a plateau whether or not the slope shows it") {
+    const Series seen = normal(2.2, 0.1), early = normal(2.02, 0.1);
+    CHECK(slope(seen).value >= -0.1);
+    CHECK(slope(early).value <= -0.2);
+    CHECK(verdict(seen) == Verdict::Plateau);
+    CHECK(verdict(early) == Verdict::Plateau);
+    CHECK_THAT(early.pooled.bias_z, WithinRel(0.02 / (0.1 / std::sqrt(2048.0)), 0.3));
+    CHECK_FALSE(effort_to(seen, 0.01).has_value());
+    CHECK_FALSE(effort_to(early, 0.001).has_value());
+}
+
+TEST_CASE("an error of the answer itself is no bias") {
+    const std::vector<double> means{2.01, 2.02, 2.01, 2.02};
+    CHECK(pool(means, 2, 0).bias_z >= 5);
+    CHECK(pool(means, 2, 0.01).bias_z <= 2);
+}
+
+TEST_CASE("heavy tails are told apart from a bias") {
+    // Pareto of index 1.2: the mean is 6, the variance infinite.
+    const Series series =
+        measured([](auto& engine) { return std::pow(1 - std::uniform_real_distribution{}(engine), -1 / 1.2); }, 6);
+    CHECK(verdict(series) == Verdict::HeavyTails);
+    CHECK(series.pooled.tail_share >= 0.5);
+}
+
+TEST_CASE("an estimator that has hit nothing yet is not called biased") {
+    CHECK(verdict(measured([](auto&) { return 0.0; }, 2)) == Verdict::HeavyTails);
+}
+
+TEST_CASE("a constant is exact or a plateau") {
+    CHECK(verdict(measured([](auto&) { return 2.0; }, 2)) == Verdict::Exact);
+    CHECK(verdict(measured([](auto&) { return 3.0; }, 2)) == Verdict::Plateau);
+}
+
+TEST_CASE("a slope that nothing explains is marked") {
+    Series series = power_law(0.2, -0.3);
+    CHECK(verdict(series) == Verdict::Unexplained);
+    series.pooled.bias_z = std::numeric_limits<double>::quiet_NaN();  // what is not known is no excuse
+    CHECK(verdict(series) == Verdict::Unexplained);
+}
+
+TEST_CASE("the tail share is that of the largest thousandth") {
+    std::vector<double> squares(2000, 1.0);
+    CHECK_THAT(tail_share(squares), WithinRel(2.0 / 2000, 1e-12));
+    squares[7] = 1001;
+    CHECK_THAT(tail_share(squares), WithinRel(1002.0 / 3000, 1e-12));
+    CHECK_THAT(tail_share({1, 3}), WithinRel(0.75, 1e-12));
+    CHECK(tail_share({0, 0}) == 0);
+}
+
+TEST_CASE("the time to an error is interpolated between points and extrapolated beyond") {
+    const Series series = power_law(0.01, -0.5);  // an error of 0.01 after a second; from 0.1 s to 1.6 s
+    const auto within = effort_to(series, 0.01), beyond = effort_to(series, 0.001), before = effort_to(series, 0.1);
+    REQUIRE((within && beyond && before));
+    CHECK_THAT(within->cpu_seconds, WithinRel(1.0, 1e-9));
+    CHECK_THAT(within->samples, WithinRel(1000.0, 1e-9));
+    CHECK_FALSE(within->extrapolated);
+    CHECK_THAT(beyond->cpu_seconds, WithinRel(100.0, 1e-9));
+    CHECK(beyond->extrapolated);
+    CHECK_THAT(before->cpu_seconds, WithinRel(0.01, 1e-9));
+    CHECK(before->extrapolated);
+    CHECK(effort_to(series, 10)->samples == 1);  // there is no part of a sample
+}
+
+TEST_CASE("efficiency is the inverse of variance times time") {
+    Series twice = normal(2, 0.1);
+    for (auto& run : twice.runs) {
+        for (Measurement& m : run) m.cpu_seconds *= 2;
+    }
+    const Series base = measured([](auto& engine) { return 2 + std::normal_distribution{0.0, 0.3}(engine); }, 2);
+    const Estimate efficiency = relative_efficiency(twice, base);
+    CHECK_THAT(efficiency.value, WithinRel(9 / 2.0, 0.25));
+    CHECK(std::abs(efficiency.value - 4.5) <= 4 * efficiency.standard_error);
+    CHECK(efficiency.standard_error <= 0.5);
+}
+
+TEST_CASE("the band holds the error and widens with the spread of the seeds") {
+    const Series series = normal(2, 0.1);
+    const Band first = relative_error(series, 0), last = relative_error(series, 4);
+    CHECK((first.low < 0.05 && 0.05 < first.high));
+    CHECK(first.high / first.low < last.high / last.low);
+    CHECK(last.low > 0);
+}
