@@ -6,7 +6,6 @@
 #include "lumis/combine/reflected.hpp"
 #include "lumis/strategies/ggx_cap.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace lumis {
@@ -17,7 +16,7 @@ namespace detail {
 // k = (1 - a^2) s^2 / (s^2 + a^2 z^2), without the cancellation.
 template <std::floating_point T>
 [[nodiscard]] T bounded_cap_shortfall(const Direction<T>& wo, const glm::vec<2, T>& alpha) noexcept {
-    const T a = std::min({alpha.x, alpha.y, T(1)});
+    const T a = real::min(real::min(alpha.x, alpha.y), T(1));
     const T s = 1 + std::sqrt(wo.x * wo.x + wo.y * wo.y);
     const T a2 = a * a, s2 = s * s, z2 = wo.z * wo.z;
     return a2 * (s2 + z2) / (s2 + a2 * z2);

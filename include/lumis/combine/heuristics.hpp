@@ -10,7 +10,6 @@
 #include "lumis/core/assert.hpp"
 #include "lumis/core/real.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -80,10 +79,11 @@ template <std::floating_point T, class Densities, class Share>
         infinite += std::isinf(density);
     }
     if (infinite > 0) return std::isinf(densities[own]) ? T(1) / static_cast<T>(infinite) : T(0);
-    const T largest = *std::ranges::max_element(densities);
+    const T largest = real::largest_of(densities);
     if (!(largest > 0)) return 0;
     constexpr int limit = std::numeric_limits<T>::max_exponent - 2;  // of a power of two and of its reciprocal
-    const T scale = std::ldexp(T(1), std::clamp(-std::ilogb(largest), -limit, limit));
+    const int exponent = std::ilogb(largest);
+    const T scale = std::ldexp(T(1), exponent < -limit ? limit : exponent > limit ? -limit : -exponent);
     const T sum = sum_of(std::span{std::as_const(densities)}, [&](T density) { return share(density, scale); });
     const T weight = share(densities[own], scale) / sum;
     return weight > 0 ? weight : T(0);

@@ -6,12 +6,12 @@
 #pragma once
 
 #include "lumis/combine/held.hpp"
+#include "lumis/core/spannable.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/strategies/alias_table.hpp"
 
 #include <concepts>
 #include <cstddef>
-#include <ranges>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -54,8 +54,8 @@ class LightSet {
     template <class Weights>
     LightSet(Lights lights, Weights&& weights)
         : lights_{std::forward<Lights>(lights)}, table_{table_of(std::forward<Weights>(weights))} {
-        if constexpr (requires { std::ranges::size(lights_); }) {
-            const std::size_t count = std::ranges::size(lights_);
+        if constexpr (requires { std::size(lights_); }) {
+            const std::size_t count = std::size(lights_);
             if (count != table_.size() && !(count == 0 && table_.empty())) {
                 throw std::invalid_argument("lumis: " + std::to_string(count) + " lights got " +
                                             std::to_string(table_.size()) + " weights");
@@ -108,7 +108,7 @@ class LightSet {
             return std::forward<Weights>(weights);
         } else {
             constexpr Scalar none[] = {Scalar(0)};
-            return std::ranges::empty(weights) ? Table{none} : Table{weights};
+            return std::empty(weights) ? Table{none} : Table{weights};
         }
     }
 
@@ -119,8 +119,8 @@ class LightSet {
 };
 
 // Weights become a table; a table is used as it is.
-template <class Lights, std::ranges::contiguous_range Weights>
-LightSet(Lights&&, Weights&&) -> LightSet<Held<Lights>, AliasTable<std::ranges::range_value_t<Weights>>>;
+template <class Lights, Spannable Weights>
+LightSet(Lights&&, Weights&&) -> LightSet<Held<Lights>, AliasTable<ElementOf<Weights>>>;
 template <class Lights, class Table>
 LightSet(Lights&&, Table&&) -> LightSet<Held<Lights>, Held<Table>>;
 

@@ -4,9 +4,9 @@
 
 #include "lumis/combine/for_each_index.hpp"
 #include "lumis/combine/technique.hpp"
+#include "lumis/core/real.hpp"
 #include "lumis/core/strategy.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <tuple>
@@ -26,7 +26,7 @@ class Mixture {
     static constexpr bool all_have_distance = has_distance<S0> && (has_distance<std::remove_cvref_t<Rest>> && ...);
 
     static constexpr int part_dimensions =
-        std::max({std::remove_cvref_t<First>::dimensions, std::remove_cvref_t<Rest>::dimensions...});
+        real::largest_of(std::array{std::remove_cvref_t<First>::dimensions, std::remove_cvref_t<Rest>::dimensions...});
 
   public:
     using Scalar = typename S0::Scalar;

@@ -116,6 +116,13 @@ template <Real R>
     return max(min(x, high), low);
 }
 
+// The largest of a range of numbers, of which there is at least one.
+[[nodiscard]] constexpr auto largest_of(const auto& numbers) noexcept {
+    auto largest = *numbers.begin();
+    for (const auto number : numbers) largest = largest < number ? number : largest;
+    return largest;
+}
+
 // Whether a condition holds in every lane.
 [[nodiscard]] constexpr bool all(bool condition) noexcept {
     return condition;

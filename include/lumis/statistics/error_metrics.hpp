@@ -3,16 +3,16 @@
 #pragma once
 
 #include "lumis/core/assert.hpp"
+#include "lumis/core/spannable.hpp"
 
 #include <cmath>
 #include <cstddef>
-#include <ranges>
 #include <span>
 
 namespace lumis {
 
 // Mean of (estimate - reference)^2.
-template <std::ranges::contiguous_range Values>
+template <Spannable Values>
 [[nodiscard]] double mean_squared_error(const Values& estimate, const Values& reference) noexcept {
     const std::span e{estimate}, r{reference};
     LUMIS_ASSERT(e.size() == r.size());
@@ -24,7 +24,7 @@ template <std::ranges::contiguous_range Values>
     return sum / static_cast<double>(e.size());
 }
 
-template <std::ranges::contiguous_range Values>
+template <Spannable Values>
 [[nodiscard]] double root_mean_squared_error(const Values& estimate, const Values& reference) noexcept {
     return std::sqrt(mean_squared_error(estimate, reference));
 }
@@ -32,7 +32,7 @@ template <std::ranges::contiguous_range Values>
 // Mean of ((estimate - reference) / max(|reference|, floor))^2: errors as fractions of the reference, so that a dark
 // region counts as much as a bright one. The floor, in the unit of the values, says from where on dark is black; with a
 // floor of 0, a reference of 0 has no relative error.
-template <std::ranges::contiguous_range Values>
+template <Spannable Values>
 [[nodiscard]] double relative_mean_squared_error(const Values& estimate, const Values& reference,
                                                  double floor) noexcept {
     const std::span e{estimate}, r{reference};

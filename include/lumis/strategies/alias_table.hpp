@@ -3,13 +3,13 @@
 // probabilities sum to 1.
 #pragma once
 
+#include "lumis/core/spannable.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/strategies/alias_rows.hpp"
 #include "lumis/strategies/cumulative_counts.hpp"
 
 #include <concepts>
 #include <cstddef>
-#include <ranges>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -52,7 +52,7 @@ class AliasTable {
     T probability_of_count_;  // 0 if nothing is drawn
 };
 
-template <std::ranges::contiguous_range R>
-AliasTable(const R&) -> AliasTable<std::remove_cv_t<std::ranges::range_value_t<R>>>;
+template <Spannable R>
+AliasTable(const R&) -> AliasTable<ElementOf<R>>;
 
 }  // namespace lumis

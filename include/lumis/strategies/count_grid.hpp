@@ -3,12 +3,12 @@
 // within rows, is GuidedRows or AliasRows; the row itself is always drawn by a guided table.
 #pragma once
 
+#include "lumis/core/real.hpp"
 #include "lumis/strategies/cumulative_counts.hpp"
 #include "lumis/strategies/guided_rows.hpp"
 
 #include <glm/vec2.hpp>
 
-#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -54,15 +54,17 @@ class CountGrid {
             weights_of(row, std::span<double>{weights});
             sums[row] = cells_.deal(row, weights);
         });
-        const auto positive = [](const ScaledSum& sum) { return sum.value > 0; };
-        empty_ = std::ranges::none_of(sums, positive);
+        empty_ = true;
+        int exponent = std::numeric_limits<int>::min();
+        for (const ScaledSum& sum : sums) {
+            empty_ = empty_ && !(sum.value > 0);
+            exponent = sum.exponent > exponent ? sum.exponent : exponent;
+        }
         // In units of the brightest row; what would vanish beside it keeps the least weight that there is.
-        const int exponent = std::ranges::max(sums, {}, &ScaledSum::exponent).exponent;
+        constexpr double least = std::numeric_limits<double>::denorm_min();
         std::vector<double> weights(height_);
         for (std::size_t row = 0; row < height_; ++row) {
-            weights[row] = positive(sums[row]) ? std::max(scale(row) * sums[row].relative_to(exponent),
-                                                          std::numeric_limits<double>::denorm_min())
-                                               : 0.0;
+            if (sums[row].value > 0) weights[row] = real::max(scale(row) * sums[row].relative_to(exponent), least);
         }
         rows_.deal(0, weights);
     }

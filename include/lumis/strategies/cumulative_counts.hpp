@@ -3,9 +3,9 @@
 // sums stands in for it (in float those are off by 1 to 4 % in the worst texel of a 4K environment map).
 #pragma once
 
+#include "lumis/core/real.hpp"
 #include "lumis/core/uniforms.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -21,7 +21,7 @@ namespace lumis {
 // log2 of the number of counts that a table deals out: every lattice point of a float, 2^31 for double, whose remaining
 // bits place the sample within the entry.
 template <std::floating_point T>
-inline constexpr int count_bits = std::min(uniform_bits<T>, 31);
+inline constexpr int count_bits = uniform_bits<T> < 31 ? uniform_bits<T> : 31;
 
 template <std::floating_point T>
 inline constexpr std::uint32_t total_counts = std::uint32_t{1} << count_bits<T>;
@@ -49,8 +49,9 @@ void require_weights(std::span<const T> weights, std::size_t row_size, const aut
         for (const T weight : weights.subspan(row * row_size, row_size)) bad |= !is_weight(weight);
         is_bad[row] = static_cast<char>(bad);
     });
-    if (std::ranges::none_of(is_bad, [](char bad) { return bad != 0; })) return;
-    const std::size_t i = static_cast<std::size_t>(std::ranges::find_if_not(weights, is_weight<T>) - weights.begin());
+    if (real::largest_of(is_bad) == 0) return;
+    std::size_t i = 0;
+    while (is_weight(weights[i])) ++i;
     throw std::invalid_argument("lumis: weight " + std::to_string(i) + " is " + std::to_string(weights[i]) +
                                 "; weights must be finite and not negative");
 }
@@ -83,8 +84,8 @@ ScaledSum deal_counts(std::span<const double> weights, auto start_of) {
     }
     if (!(sum > 0x1p-900 && sum <= std::numeric_limits<double>::max())) {
         // In units of a power of two near the largest weight.
-        const double largest = *std::max_element(weights.begin(), weights.end());
-        exponent = largest > 0 ? std::clamp(std::ilogb(largest), -1022, 1022) : 0;
+        const double largest = real::largest_of(weights);
+        exponent = largest > 0 ? std::ilogb(real::clamp(largest, 0x1p-1022, 0x1p1022)) : 0;
         scale = std::scalbn(1.0, -exponent);
         sum = 0;
         for (const double weight : weights) sum += weight * scale;
@@ -94,7 +95,7 @@ ScaledSum deal_counts(std::span<const double> weights, auto start_of) {
     double before = 0;
     std::uint32_t positive_before = 0;
     for (std::size_t i = 0; i < weights.size(); ++i) {
-        const double share = std::min(before * counts_of_weight, shared);
+        const double share = real::min(before * counts_of_weight, shared);
         start_of(i) = positive_before + static_cast<std::uint32_t>(static_cast<std::int64_t>(share + 0.5));
         before += weights[i] * scale;
         positive_before += weights[i] > 0;
@@ -140,8 +141,8 @@ template <std::floating_point T>
 // rounded across one, a point would be given the density of one cell and belong to another.
 template <std::floating_point T>
 [[nodiscard]] T clear_of_edges(T position, std::size_t n) noexcept {
-    const T margin = std::min(8 * std::numeric_limits<T>::epsilon() * static_cast<T>(n), T(0.5));
-    return std::clamp(position, margin, 1 - margin);
+    const T margin = real::min(8 * std::numeric_limits<T>::epsilon() * static_cast<T>(n), T(0.5));
+    return real::clamp(position, margin, 1 - margin);
 }
 
 // The number of entries of a table, if counts can be dealt to them; throws std::invalid_argument if not.

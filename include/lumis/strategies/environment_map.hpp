@@ -7,13 +7,14 @@
 #pragma once
 
 #include "lumis/core/latlong.hpp"
+#include "lumis/core/real.hpp"
+#include "lumis/core/spannable.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/strategies/alias_rows.hpp"
 #include "lumis/strategies/count_grid.hpp"
 #include "lumis/strategies/cumulative_counts.hpp"
 #include "lumis/strategies/guided_rows.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -21,7 +22,6 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <ranges>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -68,7 +68,7 @@ class BasicEnvironmentMap {
         const double excess = options.mis_compensation ? compensation(weights_of, for_each_row) : 0.0;
         const auto compensated = [&](std::size_t y, std::span<double> weights) {
             weights_of(y, weights);
-            for (double& weight : weights) weight = std::max(weight - excess, 0.0);
+            for (double& weight : weights) weight = real::max(weight - excess, 0.0);
         };
         grid_.deal(
             compensated, [&](std::size_t y) { return row_extent(y); }, for_each_row);
@@ -194,12 +194,12 @@ class BasicEnvironmentMap {
             std::vector<double> weights(width());
             weights_of(y, std::span<double>{weights});
             sums[y] = std::reduce(weights.begin(), weights.end());
-            largest[y] = *std::ranges::max_element(weights);
+            largest[y] = real::largest_of(weights);
         });
         double sum = 0;
         for (std::size_t y = 0; y < height(); ++y) sum += sums[y] * row_extent(y);
         const double mean = sum / (2 * static_cast<double>(width()));  // the rows' extents sum to 2
-        return *std::ranges::max_element(largest) > (1 + 1e-6) * mean ? mean : 0.0;
+        return real::largest_of(largest) > (1 + 1e-6) * mean ? mean : 0.0;
     }
 
     // Of the interpolated luminance over the texels of a row. A bilinear function's mean over one cell weighs the cell's
@@ -209,10 +209,10 @@ class BasicEnvironmentMap {
         const std::size_t n = width();
         const auto texels = [&](std::size_t row) { return luminance.subspan(row * n, n); };
         if (interpolation == Interpolation::Nearest) {
-            std::ranges::copy(texels(y), means.begin());
+            for (std::size_t x = 0; x < n; ++x) means[x] = texels(y)[x];
             return;
         }
-        const auto above = texels(y > 0 ? y - 1 : 0), here = texels(y), below = texels(std::min(y + 1, height() - 1));
+        const auto above = texels(y > 0 ? y - 1 : 0), here = texels(y), below = texels(y + 1 < height() ? y + 1 : y);
         const auto down = [&](std::size_t x) {
             return 0.125 * double{above[x]} + 0.75 * double{here[x]} + 0.125 * double{below[x]};
         };
@@ -240,11 +240,10 @@ class AliasEnvironmentMap : public BasicEnvironmentMap<T, AliasRows> {
     using BasicEnvironmentMap<T, AliasRows>::BasicEnvironmentMap;
 };
 
-template <std::integral W, std::integral H, std::ranges::contiguous_range R, class ForEachRow = InOrder>
-EnvironmentMap(W, H, const R&, EnvironmentOptions = {}, const ForEachRow& = {})
-    -> EnvironmentMap<std::remove_cv_t<std::ranges::range_value_t<R>>>;
-template <std::integral W, std::integral H, std::ranges::contiguous_range R, class ForEachRow = InOrder>
+template <std::integral W, std::integral H, Spannable R, class ForEachRow = InOrder>
+EnvironmentMap(W, H, const R&, EnvironmentOptions = {}, const ForEachRow& = {}) -> EnvironmentMap<ElementOf<R>>;
+template <std::integral W, std::integral H, Spannable R, class ForEachRow = InOrder>
 AliasEnvironmentMap(W, H, const R&, EnvironmentOptions = {}, const ForEachRow& = {})
-    -> AliasEnvironmentMap<std::remove_cv_t<std::ranges::range_value_t<R>>>;
+    -> AliasEnvironmentMap<ElementOf<R>>;
 
 }  // namespace lumis

@@ -3,12 +3,12 @@
 // from its origin loses no more than its coordinates have lost already.
 #pragma once
 
+#include "lumis/core/real.hpp"
 #include "lumis/strategies/shapes.hpp"
 #include "lumis/strategies/surface.hpp"
 
 #include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <limits>
@@ -84,7 +84,7 @@ class FlatView {
   private:
     // Worked in units of the longest edge: squares of tiny or huge edges would leave float's range.
     FlatView(const glm::vec<3, T>& corner, const glm::vec<3, T>& edge_u, const glm::vec<3, T>& edge_v) noexcept
-        : scale_{std::max(longest_component(edge_u), longest_component(edge_v))},
+        : scale_{real::max(longest_component(edge_u), longest_component(edge_v))},
           corner_{corner / scale_},
           edge_u_{edge_u / scale_},
           edge_v_{edge_v / scale_},
@@ -101,7 +101,7 @@ class FlatView {
     }
 
     static T longest_component(const glm::vec<3, T>& v) noexcept {
-        return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+        return real::max(real::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
     }
 
     T scale_;

@@ -2,11 +2,11 @@
 // Local frame, +z the shading normal. Walter et al. 2007; Heitz 2014, "Understanding the Masking-Shadowing Function".
 #pragma once
 
+#include "lumis/core/real.hpp"
 #include "lumis/core/sample.hpp"
 
 #include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <limits>
@@ -81,7 +81,7 @@ class Ggx {
 
   private:
     static T in_range(T alpha) noexcept {
-        return alpha >= 0 && alpha <= T(ggx_max_alpha) ? std::max(alpha, T(ggx_min_alpha)) : T(0);
+        return alpha >= 0 && alpha <= T(ggx_max_alpha) ? real::max(alpha, T(ggx_min_alpha)) : T(0);
     }
     [[nodiscard]] bool valid() const noexcept { return alpha_.x > 0; }
 

@@ -8,7 +8,6 @@
 
 #include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <concepts>
 
 namespace lumis::detail {

@@ -6,7 +6,6 @@
 
 #include "lumis/strategies/cumulative_counts.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -21,7 +20,7 @@ class GuidedRows {
     // `rows` tables of `entries` weights. Keeps 6 bytes a weight, and 6 more a row.
     GuidedRows(std::size_t entries, std::size_t rows)
         : entries_{entries},
-          guide_shift_{std::max(static_cast<int>(std::bit_width(entries - 1)) - 16, 0)},
+          guide_shift_{entries > 0x10000 ? static_cast<int>(std::bit_width(entries - 1)) - 16 : 0},
           starts_(rows * (entries_ + 1)),
           guide_(rows * (entries_ + 1)) {}
 
@@ -59,7 +58,8 @@ class GuidedRows {
         // The last entry that starts at or before the count lies between these: a few, unless many small ones share a
         // run, or a wide table's guide tells entries only in groups.
         std::size_t entry = std::size_t{guide[0].value} << guide_shift_;
-        std::size_t last = std::min((std::size_t{guide[1].value} + 1) << guide_shift_, entries_) - 1;
+        const std::size_t end = (std::size_t{guide[1].value} + 1) << guide_shift_;
+        std::size_t last = (end < entries_ ? end : entries_) - 1;
         while (last - entry > 16) {
             const std::size_t middle = (entry + last) / 2;
             (starts[middle].value <= count ? entry : last) = middle;

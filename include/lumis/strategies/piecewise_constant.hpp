@@ -2,16 +2,15 @@
 // Lebesgue measure. In fixed point (see cumulative_counts.hpp): the density is the frequency really drawn.
 #pragma once
 
+#include "lumis/core/spannable.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/strategies/count_grid.hpp"
 #include "lumis/strategies/cumulative_counts.hpp"
 #include "lumis/strategies/guided_rows.hpp"
 
-#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <ranges>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -78,7 +77,7 @@ class PiecewiseConstant2D {
         : grid_{width, height, weights.size()} {
         require_weights(weights, this->width(), for_each_row);
         const auto weights_of = [&](std::size_t y, std::span<double> row) {
-            std::ranges::copy(weights.subspan(y * grid_.width(), grid_.width()), row.begin());
+            for (std::size_t x = 0; x < row.size(); ++x) row[x] = weights[y * row.size() + x];
         };
         grid_.deal(
             weights_of, [](std::size_t) { return 1.0; }, for_each_row);
@@ -117,10 +116,9 @@ class PiecewiseConstant2D {
     CountGrid<T> grid_;
 };
 
-template <std::ranges::contiguous_range R>
-PiecewiseConstant1D(const R&) -> PiecewiseConstant1D<std::remove_cv_t<std::ranges::range_value_t<R>>>;
-template <std::integral W, std::integral H, std::ranges::contiguous_range R, class ForEachRow = InOrder>
-PiecewiseConstant2D(W, H, const R&, const ForEachRow& = {})
-    -> PiecewiseConstant2D<std::remove_cv_t<std::ranges::range_value_t<R>>>;
+template <Spannable R>
+PiecewiseConstant1D(const R&) -> PiecewiseConstant1D<ElementOf<R>>;
+template <std::integral W, std::integral H, Spannable R, class ForEachRow = InOrder>
+PiecewiseConstant2D(W, H, const R&, const ForEachRow& = {}) -> PiecewiseConstant2D<ElementOf<R>>;
 
 }  // namespace lumis

@@ -8,7 +8,6 @@
 
 #include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <numbers>

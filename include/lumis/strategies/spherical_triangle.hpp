@@ -6,12 +6,12 @@
 // keeps its relative accuracy.
 #pragma once
 
+#include "lumis/core/real.hpp"
 #include "lumis/core/sample.hpp"
 #include "lumis/core/spherical.hpp"
 
 #include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <numbers>
@@ -48,7 +48,7 @@ class SphericalTriangle {
         g0_ = std::abs(det);
         g2_ = -glm::dot(ab_, tangent_);
         const T half_sine = glm::length(chord_bc) / 2;
-        half_bc_ = {std::sqrt(std::max((1 - half_sine) * (1 + half_sine), T(0))), half_sine};
+        half_bc_ = {std::sqrt(real::max((1 - half_sine) * (1 + half_sine), T(0))), half_sine};
     }
 
     // 0 from a vertex.
@@ -92,7 +92,7 @@ class SphericalTriangle {
         if (!(length > 0)) return {T(0), T(0)};
         const T t = sine / (length + cosine);
         const T cut_off = 2 * std::atan2(t * g0_, g1_ + t * g2_);
-        return {std::max(cut_off / solid_angle_, T(0)), glm::dot(aw, aw) / glm::dot(to(t), to(t))};
+        return {real::max(cut_off / solid_angle_, T(0)), glm::dot(aw, aw) / glm::dot(to(t), to(t))};
     }
 
   private:
