@@ -1,5 +1,6 @@
 #include "render_study.hpp"
 
+#include "error_image.hpp"
 #include "image.hpp"
 #include "left_out.hpp"
 #include "reference_image.hpp"
@@ -67,6 +68,13 @@ int count_fireflies(const Image& image, const Image& reference) {
 std::string write(const std::filesystem::path& folder, const std::string& stem, const Image& image) {
     for (const char* ending : {".exr", ".png"}) tracer::write_image((folder / (stem + ending)).string(), image);
     return stem + ".png";
+}
+
+std::string write_error(const std::filesystem::path& folder, const std::string& stem, const Image& image,
+                        const ReferenceImage& reference) {
+    const std::string file = stem + "_error.png";
+    tracer::write_grey((folder / file).string(), image.width, image.height, error_levels(image, reference));
+    return file;
 }
 
 Measurement measure(const Run& run, const Image& image, const ReferenceImage& reference) {
@@ -166,9 +174,10 @@ Study render_study(const std::string& scene_name, const std::vector<std::uint64_
             add(sums[i], run.film());
             if (series.picture) continue;
             const Image image = run.image();
-            series.picture = Picture{write(settings.output, study.name + "_" + series.name, image),
-                                     static_cast<int>(series.samples.back()), run.cpu_seconds(),
-                                     count_fireflies(image, reference.image)};
+            const std::string stem = study.name + "_" + series.name;
+            series.picture = Picture{
+                write(settings.output, stem, image), write_error(settings.output, stem, image, reference),
+                static_cast<int>(series.samples.back()), run.cpu_seconds(), count_fireflies(image, reference.image)};
         }
     }
     for (std::size_t i = 0; i < sums.size(); ++i) study.series[i].pooled = pool(sums[i], reference);

@@ -1,5 +1,7 @@
 #include "results.hpp"
 
+#include "error_image.hpp"
+
 #include <nlohmann/json.hpp>
 #include <sys/utsname.h>
 
@@ -28,6 +30,12 @@ std::ofstream open(const std::filesystem::path& file) {
     if (!out) throw std::runtime_error("cannot write " + file.string());
     return out;
 }
+
+#ifdef NDEBUG
+constexpr bool assertions = false;
+#else
+constexpr bool assertions = true;
+#endif
 
 std::string cpu_model() {
     std::ifstream info{"/proc/cpuinfo"};
@@ -111,6 +119,7 @@ json series_json(const Series& series, const Study& study) {
     for (std::size_t i = 0; i < series.samples.size(); ++i) result["points"].push_back(point_json(series, i));
     if (series.picture) {
         result["image"] = series.picture->file;
+        result["error_image"] = series.picture->error_file;
         result["image_spp"] = series.picture->samples;
         result["image_seconds"] = series.picture->cpu_seconds;
         result["fireflies"] = series.picture->fireflies;
@@ -248,40 +257,24 @@ void write_csv(const std::filesystem::path& file, std::span<const Study> studies
 }
 
 void write_json(const std::filesystem::path& file, std::span<const Study> studies,
-                const std::optional<StiffStudy>& stiff, const Settings& settings){
-    json result{{"schema", 1},
-                {"machine",
-                 {{"cpu", cpu_model()},
-                  {"threads", settings.threads},
-                  {"system", operating_system()},
-                  {"compiler", compiler()},
-                  {"flags", LUMIS_CXX_FLAGS},
-                  {"date", today()}}},
-                {"build",
-                 {{"version", LUMIS_VERSION},
-                  {"type", LUMIS_BUILD_TYPE},
-                  {"compiler", compiler()},
-                  {"flags", LUMIS_CXX_FLAGS},
-#ifdef NDEBUG
-                  {"assertions", false}}},
-#else
-                  {"assertions", true}}},
-#endif
-                {"settings",
-                 {{"seeds", settings.seeds},
-                  {"seconds_of_each_run_of_a_scene", settings.seconds},
-                  {"seconds_of_each_run_of_an_integral", settings.seconds_of_integrals()},
-                  {"reference_samples", settings.reference_samples},
-                  {"widest_image", settings.width}}},
-                {"rules",
-                 {{"bias_z_limit", Rules::bias_z_limit},
-                  {"tail_share_limit", Rules::tail_share_limit},
-                  {"tail_share_limit_of_images", Rules::tail_share_limit_of_images},
-                  {"slope_significance", Rules::slope_significance}}},
-                {"problems", json::array()}};
-if (stiff) result["stiff"] = stiff_json(*stiff);
-for (const Study& study : studies) result["problems"].push_back(study_json(study));
-open(file) << result.dump(2) << '\n';
-}  // namespace convergence
+                const std::optional<StiffStudy>& stiff, const Settings& settings) {
+    json result{{"schema", 1}, {"problems", json::array()}};
+    result["machine"] = {{"cpu", cpu_model()},     {"threads", settings.threads}, {"system", operating_system()},
+                         {"compiler", compiler()}, {"flags", LUMIS_CXX_FLAGS},    {"date", today()}};
+    result["build"] = {{"version", LUMIS_VERSION}, {"type", LUMIS_BUILD_TYPE}, {"assertions", assertions}};
+    result["settings"] = {{"seeds", settings.seeds},
+                          {"seconds_of_each_run_of_a_scene", settings.seconds},
+                          {"seconds_of_each_run_of_an_integral", settings.seconds_of_integrals()},
+                          {"reference_samples", settings.reference_samples},
+                          {"widest_image", settings.width}};
+    result["rules"] = {{"bias_z_limit", Rules::bias_z_limit},
+                       {"tail_share_limit", Rules::tail_share_limit},
+                       {"tail_share_limit_of_images", Rules::tail_share_limit_of_images},
+                       {"slope_significance", Rules::slope_significance}};
+    result["error_scale"] = {{"low", ErrorScale::low}, {"high", ErrorScale::high}};
+    for (const Study& study : studies) result["problems"].push_back(study_json(study));
+    if (stiff) result["stiff"] = stiff_json(*stiff);
+    open(file) << result.dump(2) << '\n';
+}
 
 }  // namespace convergence

@@ -66,7 +66,7 @@ double student_t(const Series& series, double tail) {
     return quantile(complement(t, tail));
 }
 
-// Where the efficiency is read off.
+// Where the efficiency is read off, and the time to an error: an unbiased estimator's are the same at every sample count.
 std::size_t firmest_point(const Series& series) {
     const std::size_t last = series.samples.size() - 1;
     if (!series.unbiased || verdict(series) == Verdict::Plateau || series.runs_per_seed.empty()) return last;
@@ -166,18 +166,21 @@ std::optional<Effort> effort_to(const Series& series, double target) {
         return Effort{static_cast<double>(series.samples[point]),
                       series.over_seeds(point, &Measurement::cpu_seconds).mean(), false};
     };
-    const auto extrapolated = [&](std::size_t point) {
+    const auto by_slope = [&](std::size_t point, bool is_beyond) {
         const Effort from = at(point);
         const double factor = std::max(squared(relative_error(series, point).value / target), 1 / from.samples);
-        return Effort{factor * from.samples, factor * from.cpu_seconds, true};
+        return Effort{factor * from.samples, factor * from.cpu_seconds, is_beyond};
     };
     const std::size_t points = series.samples.size();
     std::size_t reached = 0;
     while (reached < points && !(relative_error(series, reached).value <= target)) ++reached;
-    if (reached == 0) return extrapolated(0);
+    const bool is_beyond = reached == 0 || reached == points;
+    const Verdict found = verdict(series);
+    if (series.unbiased && found == Verdict::Converges) return by_slope(firmest_point(series), is_beyond);
+    if (reached == 0) return by_slope(0, is_beyond);
     if (reached == points) {
-        if (!series.unbiased || verdict(series) == Verdict::Plateau) return {};
-        return extrapolated(points - 1);
+        if (!series.unbiased || found == Verdict::Plateau) return {};
+        return by_slope(points - 1, is_beyond);
     }
     const double before = relative_error(series, reached - 1).value, after = relative_error(series, reached).value;
     const Effort low = at(reached - 1), high = at(reached);

@@ -22,7 +22,7 @@ struct Measurement {
 
 // Equal-time image of an estimator.
 struct Picture {
-    std::string file;
+    std::string file, error_file;
     int samples;
     double cpu_seconds;
     int fireflies;  // lone pixels far brighter than they should be
@@ -138,8 +138,8 @@ enum class Verdict { Exact, HeavyTails, Plateau, Converges, Unexplained };
 [[nodiscard]] Verdict verdict(const Series& series);
 [[nodiscard]] std::string_view name(Verdict verdict);
 
-// The effort that takes an estimator to a relative error; where none was measured that small, or that large, as the
-// slope -1/2 has it. Nothing if a plateau is in the way.
+// The effort that takes an estimator to a relative error: of one that converges, from where most runs stand behind it, by
+// the slope -1/2; of others between two measured points, and beyond those by the slope. Nothing if a plateau is in the way.
 struct Effort {
     double samples, cpu_seconds;
     bool extrapolated;

@@ -34,13 +34,17 @@ unsigned char srgb(float linear) {
     return static_cast<unsigned char>(std::lround(255 * encoded));
 }
 
-void write_png(const std::string& path, const Image& image) {
+void write_png(const std::string& path, int width, int height, int channels, const unsigned char* bytes) {
+    if (stbi_write_png(path.c_str(), width, height, channels, bytes, channels * width) == 0) {
+        throw FileError("cannot write " + path);
+    }
+}
+
+void write_srgb(const std::string& path, const Image& image) {
     std::vector<unsigned char> bytes;
     bytes.reserve(3 * image.pixels.size());
     for (const auto& pixel : image.pixels) bytes.insert(bytes.end(), {srgb(pixel.r), srgb(pixel.g), srgb(pixel.b)});
-    if (stbi_write_png(path.c_str(), image.width, image.height, 3, bytes.data(), 3 * image.width) == 0) {
-        throw FileError("cannot write " + path);
-    }
+    write_png(path, image.width, image.height, 3, bytes.data());
 }
 
 // tinyexr's message, which it asks us to free.
@@ -214,7 +218,11 @@ bool is_writable_format(const std::string& path) {
 
 void write_image(const std::string& path, const Image& image) {
     if (!std::ofstream{path}) throw FileError("cannot write " + path + ": " + std::strerror(errno));
-    path.ends_with(".exr") ? write_exr(path, image) : write_png(path, image);
+    path.ends_with(".exr") ? write_exr(path, image) : write_srgb(path, image);
+}
+
+void write_grey(const std::string& path, int width, int height, std::span<const unsigned char> values) {
+    write_png(path, width, height, 1, values.data());
 }
 
 }  // namespace tracer

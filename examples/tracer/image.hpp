@@ -34,4 +34,7 @@ struct FileError : std::runtime_error {
 [[nodiscard]] bool is_writable_format(const std::string& path);
 void write_image(const std::string& path, const Image& image);
 
+// A .png of one byte a pixel, row by row from the top: numbers as grey, 0 black.
+void write_grey(const std::string& path, int width, int height, std::span<const unsigned char> values);
+
 }  // namespace tracer

@@ -170,6 +170,15 @@ TEST_CASE("the time to an error is interpolated between points and extrapolated 
     CHECK(effort_to(series, 10)->samples == 1);  // there is no part of a sample
 }
 
+TEST_CASE("the time to an error goes by where most runs stand behind it") {
+    const Series series = normal(2, 0.1);  // a piece of 100 samples, 0.1 ms, is off by 5 %: 1 % takes 25 of them
+    const auto effort = effort_to(series, 0.01);
+    REQUIRE(effort.has_value());
+    CHECK_THAT(effort->cpu_seconds, WithinRel(2.5e-3, 0.1));  // five standard errors of 2048 squares
+    CHECK_THAT(effort->samples, WithinRel(2500.0, 0.1));
+    CHECK_FALSE(effort->extrapolated);
+}
+
 TEST_CASE("efficiency is the inverse of variance times time") {
     Series twice = normal(2, 0.1);
     for (auto& run : twice.runs) {

@@ -1,0 +1,90 @@
+"""Results of no run, for tests of the page: the example of SCHEMA.md, and a small scene with all that a page can show."""
+
+import copy
+import json
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+BENCH = Path(__file__).resolve().parents[2] / "bench" / "convergence"
+WIDTH, HEIGHT = 60, 40
+
+
+def example():
+    """The example of SCHEMA.md, to the letter."""
+    return json.loads(re.search(r"```json\n(.*?)```", (BENCH / "SCHEMA.md").read_text(encoding="utf-8"), re.DOTALL)[1])
+
+
+def estimator(name, seconds, **changes):
+    """One that takes so long to an error of 1 %."""
+    points = []
+    for i in range(4):
+        time, error = 1e-3 * 4 ** i, 0.01 * math.sqrt(seconds / (1e-3 * 4 ** i))
+        points.append({"samples": 4 ** i, "runs": 8, "cpu_seconds": time, "cpu_seconds_standard_error": 0.01 * time,
+                       "wall_seconds": time / 2, "rmse": error, "rmse_standard_error": 0.1 * error,
+                       "relative_mse": error ** 2, "relative_mse_standard_error": 0.1 * error ** 2,
+                       "relative_rmse": error, "relative_rmse_low": 0.9 * error, "relative_rmse_high": 1.1 * error})
+    return {"name": name, "model": "multi-sample", "heuristic": name, "counts": [1, 1], "probabilities": None,
+            "headline": True, "unbiased": True, "verdict": "converges", "points": points, "mean": None,
+            "mean_standard_error": None, "bias_z": 0.3, "tail_share": 0.01, "slope": -0.501, "slope_standard_error": 0.004,
+            "efficiency_relative_to_power": 0.02 / seconds, "efficiency_standard_error": 0.001,
+            "to_1_percent": {"samples": seconds * 1e3, "cpu_seconds": seconds, "extrapolated": seconds > 0.064},
+            "to_10_percent": {"samples": 1, "cpu_seconds": seconds / 100, "extrapolated": True}} | changes
+
+
+def scene(folder):
+    """With images of noise: the less of it, the better."""
+    noise = np.random.default_rng(1)
+    Image.fromarray(np.full((HEIGHT, WIDTH, 3), 128, np.uint8)).save(folder / "reference.png")
+    integrators = []
+    for name, seconds, spread, changes in (
+            ("power", 0.02, 20, {}), ("balance", 0.021, 20, {}), ("one-sample", 0.05, 40, {"model": "one-sample"}),
+            ("average", 3, 80, {}), ("bsdf", 0.9, 90, {"model": "alone", "verdict": "heavy tails", "bias_z": -2.5}),
+            ("light", None, 60, {"model": "alone", "verdict": "plateau", "unbiased": False, "bias_z": 4e12,
+                                 "to_1_percent": None, "to_10_percent": None})):
+        integrator = estimator(name, seconds or 1, **changes)
+        image = np.clip(noise.normal(128, spread, (HEIGHT, WIDTH, 3)), 0, 255).astype(np.uint8)
+        error = np.clip(noise.normal(spread, 30, (HEIGHT, WIDTH)), 0, 255).astype(np.uint8)
+        Image.fromarray(image).save(folder / f"{name}.png")
+        Image.fromarray(error).save(folder / f"{name}_error.png")
+        integrators.append(integrator | {"image": f"{name}.png", "error_image": f"{name}_error.png", "image_spp": 16,
+                                         "image_seconds": 0.4, "fireflies": spread // 10})
+    variant = {"cpu_seconds_per_sample": 9e-7, "cpu_seconds_per_sample_standard_error": 1e-9,
+               "instructions_per_sample": 10433.2, "relative_mse": 0.0178, "relative_mse_standard_error": 2e-4}
+    return {"name": "made-up", "title": "A made-up scene <&>", "kind": "render", "group": "scenes",
+            "description": "Grey, and noise.", "strategies": ["Diffuse: MultiSample<PowerHeuristic, A<B>, A<B>>"],
+            "width": WIDTH, "height": HEIGHT, "runs": 8, "integrators": integrators,
+            "reference": {"source": "mean of two", "value": None, "rmse": 0.02, "relative_mse": 2e-4,
+                          "image": "reference.png", "agreement": {"integrators": ["power", "balance"], "block": 16,
+                                                                  "blocks": 6, "worst_z": 2.8, "limit": 5.5}},
+            "left_out": {"strategies": ["EnvironmentMap"], "materials": [], "composed": variant,
+                         "everything": variant | {"instructions_per_sample": None}, "seconds": 0.1,
+                         "instructions_by": "nobody", "time_ratio": 1.0, "time_ratio_standard_error": 0.004,
+                         "instructions_ratio": None}}
+
+
+def whole(folder):
+    results = example()
+    steps = results["problems"][0]
+    steps["integrators"] = [estimator(name, seconds) for name, seconds in (("balance", 1e-6), ("power", 1.3e-3))]
+    steps["integrators"] += [estimator(f"balance 1:{i}", 0.01 * i, headline=False) for i in range(2, 30)]
+    results["problems"].append(scene(folder))
+    results["error_scale"] = {"low": 1e-3, "high": 10}
+    results["build"] = {"version": "0", "type": "Release", "assertions": False}
+    results["rules"] = {"bias_z_limit": 5, "tail_share_limit": 0.2, "tail_share_limit_of_images": 0.5,
+                        "slope_significance": 1e-4}
+    results["stiff"] = {"alphas": [0.1, 0.01], "solid_angles": [1e-6, 6.283185307179586], "seconds": 2e-3, "runs": 16,
+                        "integrators": [{"name": name, "relative_error": [[1e-7, 0.3], [None, 2.5]],
+                                         "bias_z": [[0, 0], [None, 0]]} for name in ("power", "bsdf")]}
+    return results
+
+
+def stability():
+    row = {"kernel": "uniforms", "case": "engines of 16 to 64 bits", "scalar": "float", "reference": "quad",
+           "evaluations": 1000, "misbehaved": 0, "has_error": True, "worst_error": 1e-7, "error_limit": 1e-6,
+           "has_usual": True, "usual_error": None, "has_z": False, "worst_z": None, "z_limit": 5, "standard_error": None,
+           "cpu_seconds": 0.1, "passed": True}
+    return {"schema": 1, "quick": True, "rows": [row, copy.copy(row) | {"worst_error": 1e-3, "passed": False}]}
