@@ -10,6 +10,7 @@ import matplotlib
 matplotlib.use("svg")
 import matplotlib.pyplot as plt
 import numpy as np
+from markupsafe import Markup
 from matplotlib.markers import MarkerStyle
 
 # Each colour of a figure, on light paper and on dark.
@@ -44,8 +45,9 @@ def svg(figure):
     text = out.getvalue()
     text = text[text.index("<svg"):]
     text = re.sub(r"<!--.*?-->|<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
-    text = re.sub(r"(?<=[ \"(,ML-])(\d+\.\d{2})\d+", r"\1", text)  # a hundredth of a pixel is fine enough
+    text = re.sub(r"(?<=[ \"(,ML-])(\d+\.\d)\d+", r"\1", text)  # a tenth of a pixel is fine enough
     text = text.replace("font: 9px 'DejaVu Sans'", "font: 9px var(--font)").replace("'DejaVu Sans'", "var(--font)")
+    text = re.sub(r' id="(?![mp][0-9a-f]{10}")[^"]*"', "", text)  # names that nothing refers to
     for color in ON_DARK:
         text = text.replace(color, f"var({variable(color)})")
     text = re.sub(r"\s*\n\s*", "\n", text)
@@ -58,9 +60,8 @@ def svg(figure):
 def picture(figure):
     """The figure as the page shows it: where it is, and its size in pixels of the page."""
     width, height = (round(96 * inches) for inches in figure.get_size_inches())
-    text = svg(figure).replace('"', "'")
-    return {"uri": "data:image/svg+xml," + urllib.parse.quote(text, safe=" '/:;=,()[]{}!$&*+@?\n"),
-            "width": width, "height": height}
+    text = urllib.parse.quote(svg(figure).replace('"', "'"), safe=" '<>/:;=,()[]{}!$*+@?\n")
+    return {"uri": Markup("data:image/svg+xml," + text), "width": width, "height": height}
 
 
 def marker_points(marker):

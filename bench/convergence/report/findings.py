@@ -60,8 +60,8 @@ def overview_row(problem):
     slowdown = {i["name"]: cell(i, problem["fastest"]) for i in problem["integrators"]}
     alone = [slowdown[i["name"]] | {"name": i["name"]} for i in problem["integrators"]
              if i["model"] == "alone" and combines_all(i, problem)]
-    best, worst = (choose(alone, key=lambda one: one["factor"], default=None) for choose in (min, max))
-    return {"problem": problem, "cells": [slowdown.get(name) for name in COMBINED] + [best, worst]}
+    alone = sorted(alone, key=lambda one: one["factor"]) or [None]
+    return {"problem": problem, "cells": [slowdown.get(name) for name in COMBINED] + [alone[0], alone[-1]]}
 
 
 def cell(integrator, fastest):
@@ -70,12 +70,12 @@ def cell(integrator, fastest):
 
 
 def totals(overview):
-    """Of each column of the overview, the geometric mean and the largest of its factors."""
-    columns = list(zip(*(row["cells"] for row in overview)))
-    factors = [[cell["factor"] for cell in column if cell] for column in columns]
-    return {"typical": [math.exp(sum(map(math.log, column)) / len(column)) if column and math.isfinite(max(column))
-                        else math.inf for column in factors],
-            "worst": [max(column, default=math.inf) for column in factors]}
+    """Of each column of the overview, the geometric mean and the largest of its factors; and the name of the safest."""
+    columns = [[cell["factor"] for cell in column if cell] for column in zip(*(row["cells"] for row in overview))]
+    typical = [math.exp(sum(map(math.log, factors)) / len(factors)) if factors else math.inf for factors in columns]
+    worst = [max(factors, default=math.inf) for factors in columns]
+    safest = min(range(len(COMBINED)), key=typical.__getitem__) if columns else None
+    return {"typical": typical, "worst": worst, "safest": safest}
 
 
 def level(factor):

@@ -60,6 +60,7 @@ def format_axes(axes):
     """Time below, relative RMSE on the left, and its square on the right."""
     squared = axes.secondary_yaxis("right", functions=(np.square, np.sqrt))
     squared.tick_params(length=2)
+    squared.grid(False)
     axes.spines["right"].set_visible(False)
     for axis, write in ((axes.xaxis, time_label), (axes.yaxis, percentage), (squared.yaxis, square)):
         low, high = axis.get_view_interval()
