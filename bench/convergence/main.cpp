@@ -1,5 +1,6 @@
-// Measures the error of estimators against their run time, and writes what the report is drawn from.
+// Measures the error of estimators against their run time, and draws the page about it.
 #include "left_out.hpp"
+#include "page.hpp"
 #include "problem_study.hpp"
 #include "render_study.hpp"
 #include "renderer.hpp"
@@ -86,6 +87,9 @@ void run(const Settings& settings) {
     }
     write_csv(settings.output / "results.csv", studies);
     write_json(settings.output / "results.json", studies, stiff, settings);
+    if (!settings.page) return;
+    if (settings.problems.empty()) measure_extremes(settings.output);
+    draw_page(settings.output);
 }
 
 }  // namespace
@@ -98,7 +102,7 @@ int main(int argc, char** argv) {
     std::tuple<std::string, std::string, int> counted;
 
     CLI::App app{"Measures the error of estimators against their run time."};
-    app.add_option("--output", settings.output, "Folder for the results")->capture_default_str();
+    app.add_option("--output", settings.output, "Folder for the results and their page")->capture_default_str();
     app.add_option("--problem", settings.problems, "Only these, see --list")->check(CLI::IsMember(all_problems()));
     app.add_flag("--list", list_only, "Show the problems");
     app.add_flag("--all", thorough, "Take about ten minutes for more seeds, time and pixels, unless these are given");
@@ -117,6 +121,7 @@ int main(int argc, char** argv) {
             ->capture_default_str();
     app.add_option("--threads", settings.threads, "For rendering")->check(CLI::Range(1, 1024))->capture_default_str();
     app.add_option("--env", settings.environment, "Environment map of the scene sky, latitude-longitude");
+    app.add_flag("!--no-page", settings.page, "Only results.json and results.csv");
     auto* counted_option = app.add_option("--instructions", counted,
                                           "Only render this scene, composed or with everything, with so many samples a "
                                           "pixel, for a program that counts instructions");

@@ -17,6 +17,7 @@ struct Settings {
     int threads = 1;
     std::string environment;
     std::vector<std::string> problems;  // none: all
+    bool page = true;
 
     // An integral is one number where an image is thousands: it is run for less, in more estimators.
     [[nodiscard]] double seconds_of_integrals() const { return seconds / 400; }
