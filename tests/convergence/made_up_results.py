@@ -43,9 +43,9 @@ def scene(folder):
     for name, seconds, spread, changes in (
             ("power", 0.02, 20, {}), ("balance", 0.021, 20, {}), ("one-sample", 0.05, 40, {"model": "one-sample"}),
             ("average", 3, 80, {}), ("bsdf", 0.9, 90, {"model": "alone", "verdict": "heavy tails", "bias_z": -2.5}),
-            ("light", None, 60, {"model": "alone", "verdict": "plateau", "unbiased": False, "bias_z": 4e12,
-                                 "to_1_percent": None, "to_10_percent": None})):
-        integrator = estimator(name, seconds or 1, **changes)
+            ("light", 1e-4, 60, {"model": "alone", "verdict": "plateau", "unbiased": False, "bias_z": 4e12,
+                                 "to_10_percent": None})):
+        integrator = estimator(name, seconds, **changes)
         image = np.clip(noise.normal(128, spread, (HEIGHT, WIDTH, 3)), 0, 255).astype(np.uint8)
         error = np.clip(noise.normal(spread, 30, (HEIGHT, WIDTH)), 0, 255).astype(np.uint8)
         Image.fromarray(image).save(folder / f"{name}.png")

@@ -120,6 +120,22 @@ def problems_of(page, chromium):
     return wrong
 
 
+def misstatements(page, chromium):
+    """What the page of made-up results says otherwise than they do."""
+    chromium.get(page.resolve().as_uri())
+    names, verdicts, factors, first = chromium.execute_script("""
+        const rows = [...document.querySelector("#made-up .table tbody").rows];
+        const overview = [...document.querySelector(".whole tbody").rows].find(row => row.innerText.includes("made-up"));
+        return [rows.map(row => row.cells[0].dataset.value), rows.map(row => row.cells[8].dataset.value),
+                [...overview.cells].map(cell => cell.innerText.split("\\n")[0]), rows[0].innerText]""")
+    expected = {
+        "ranking": (names, ["power", "balance", "one-sample", "bsdf", "average", "light"]),
+        "verdicts": (verdicts, ["converges"] * 3 + ["heavy tails", "converges", "plateau"]),
+        "overview": (factors[2:], ["1.1", "1.0", "2.5", "150", "45!", "never"]),  # a time of 0.02 s is the fastest
+        "first row": ([text in first for text in ("20 ms", "200 µs*", "✓ converges")], [True] * 3)}
+    return [f"{page}: {what} is {found}, expected {wanted}" for what, (found, wanted) in expected.items() if found != wanted]
+
+
 def draw(folder, name, results, stability=None):
     """The page of these results."""
     folder.joinpath(name).mkdir(parents=True, exist_ok=True)
@@ -162,6 +178,8 @@ def main():
         try:
             for page in pages:
                 wrong += problems_of(page, chromium)
+            if arguments.folder:
+                wrong += misstatements(arguments.folder / "whole" / "index.html", chromium)
         finally:
             chromium.quit()
     print(*wrong or [f"{len(pages)} pages, {len(WIDTHS)} widths, {len(CHECKS)} checks: all is well"], sep="\n")
