@@ -13,7 +13,7 @@ import numpy as np
 from markupsafe import Markup
 from matplotlib.markers import MarkerStyle
 
-# Each colour of a figure, on light paper and on dark.
+# Each color of a figure, on light paper and on dark.
 INK, QUIET, LINE = "#1d1f23", "#5d626b", "#dcdad5"
 SERIES = {  # Okabe and Ito (2008); on dark paper lighter
     "#0072b2": "#4aa8e0", "#d55e00": "#ff8a3c", "#009e73": "#2fc79c", "#222222": "#e4e4e2", "#cc79a7": "#e39cc4",
@@ -38,7 +38,7 @@ def variable(color):
 
 
 def svg(figure):
-    """The figure, closed, as SVG whose colours follow the reader's choice of light or dark."""
+    """The figure, closed, as SVG whose colors follow the reader's choice of light or dark."""
     out = io.StringIO()
     figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
     plt.close(figure)
