@@ -23,7 +23,7 @@ struct Diffuse {
     }
 };
 
-// A rough metal; its colour at normal incidence goes to white at grazing (Schlick 1994).
+// A rough metal; its color at normal incidence goes to white at grazing (Schlick 1994).
 struct Metal {
     vec3 color;
     float alpha;
@@ -36,7 +36,7 @@ struct Metal {
     }
 };
 
-// A polished metal: a delta strategy, whose coefficient is the colour itself.
+// A polished metal: a delta strategy, whose coefficient is the color itself.
 struct Mirror {
     vec3 color;
 
