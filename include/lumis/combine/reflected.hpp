@@ -21,12 +21,12 @@ class Reflected {
                   "Reflected needs a strategy over normals, with a density per solid angle");
 
     // wo: unit; on or below the horizon nothing is drawn.
-    Reflected(const Point& wo, const Normals& normals) noexcept : wo_{above_horizon_or_zero(wo)}, normals_{normals} {}
+    [[gnu::always_inline]] Reflected(const Point& wo, const Normals& normals) noexcept : wo_{above_horizon_or_zero(wo)}, normals_{normals} {}
 
     // Normals that reflect below the horizon draw nothing. The density is that of the direction as rounded, so that it
     // cancels exactly against a reflectance evaluated there.
     template <RealOf<Scalar> R = Scalar>
-    [[nodiscard]] Sample<Direction<R>, R> sample(glm::vec<dimensions, R> u) const noexcept {
+    [[nodiscard, gnu::always_inline]] Sample<Direction<R>, R> sample(glm::vec<dimensions, R> u) const noexcept {
         const Direction<R> wm = normal(u), wo{wo_};
         // Divided by wm's own length, whether it is a unit vector or not: else its rounding would lengthen wi, by up to
         // five units in the last place.

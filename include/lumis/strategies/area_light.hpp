@@ -44,11 +44,11 @@ class AreaLight<Shape, ByArea> {
     using Measure = measure::SolidAngle;
     static constexpr int dimensions = 2;
 
-    AreaLight(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept
+    [[gnu::always_inline]] AreaLight(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept
         : view_{shape, reference_point} {}
 
     template <RealOf<Scalar> R = Scalar>
-    [[nodiscard]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+    [[nodiscard, gnu::always_inline]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         const SurfaceSample<R> point = view_.sample(u);
         const R squared = glm::dot(point.position, point.position);
         const auto valid = is_squared_length(squared);

@@ -35,12 +35,12 @@ class AreaLight<Sphere<T>, BySolidAngle> {
     using Measure = measure::SolidAngle;
     static constexpr int dimensions = 2;
 
-    AreaLight(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point) noexcept
+    [[gnu::always_inline]] AreaLight(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point) noexcept
         : view_{sphere, reference_point}, pdf_{density_or_zero(1 / view_.solid_angle())} {}
 
     // u.x = 0 is the centre of the cone.
     template <RealOf<T> R = T>
-    [[nodiscard]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+    [[nodiscard, gnu::always_inline]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         const auto [direction, distance] = view_.direction(u);
         return detail::seen_at(direction, pdf_, distance);
     }

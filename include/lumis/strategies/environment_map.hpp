@@ -127,8 +127,10 @@ class BasicEnvironmentMap {
                 std::numeric_limits<T>::infinity()};
     }
 
+    // Inlined, lest w go by way of memory: written there in parts and read as a whole, it would have to wait for every
+    // earlier look-up, and so would the next one.
     template <RealOf<T> R = T>
-    [[nodiscard]] R pdf(const Direction<R>& w) const noexcept {
+    [[nodiscard, gnu::always_inline]] R pdf(const Direction<R>& w) const noexcept {
         return pdf_at(latlong_from_direction(w));
     }
 

@@ -9,9 +9,12 @@
 
 #include <glm/geometric.hpp>
 
+#include <bit>
 #include <cmath>
 #include <concepts>
+#include <cstdint>
 #include <limits>
+#include <type_traits>
 
 namespace lumis {
 
@@ -21,17 +24,17 @@ class FlatView {
     static constexpr bool is_triangle = std::same_as<Shape, Triangle<T>>;
 
   public:
-    FlatView(const Shape& shape, const glm::vec<3, T>& reference_point) noexcept requires is_triangle
+    [[gnu::always_inline]] FlatView(const Shape& shape, const glm::vec<3, T>& reference_point) noexcept requires is_triangle
         : FlatView{shape.a - reference_point, shape.b - shape.a, shape.c - shape.a} {}
 
-    FlatView(const Shape& shape, const glm::vec<3, T>& reference_point) noexcept requires(!is_triangle)
+    [[gnu::always_inline]] FlatView(const Shape& shape, const glm::vec<3, T>& reference_point) noexcept requires(!is_triangle)
         : FlatView{shape.corner - reference_point, shape.edge_u, shape.edge_v} {}
 
     [[nodiscard]] T area() const noexcept { return area_; }
 
     // u in [0,1]^2. Triangles by the square-root map (Turk 1990), which folds nothing and so keeps strata together.
     template <RealOf<T> R = T>
-    [[nodiscard]] SurfaceSample<R> sample(glm::vec<2, R> u) const noexcept {
+    [[nodiscard, gnu::always_inline]] SurfaceSample<R> sample(glm::vec<2, R> u) const noexcept {
         R s = u.x, t = u.y;
         if constexpr (is_triangle) {
             const R root = real::sqrt(u.x);
@@ -42,7 +45,7 @@ class FlatView {
         return {R(scale_) * (Vector(corner_) + s * Vector(edge_u_) + t * Vector(edge_v_)), height_};
     }
 
-    // The vertex all edges start from, relative to the reference point, and the edges; in units of the longest edge.
+    // The vertex all edges start from, relative to the reference point, and the edges; in units near the longest edge.
     [[nodiscard]] const glm::vec<3, T>& corner() const noexcept { return corner_; }
     [[nodiscard]] const glm::vec<3, T>& edge_u() const noexcept { return edge_u_; }
     [[nodiscard]] const glm::vec<3, T>& edge_v() const noexcept { return edge_v_; }
@@ -82,22 +85,30 @@ class FlatView {
     }
 
   private:
-    // Worked in units of the longest edge: squares of tiny or huge edges would leave float's range.
-    FlatView(const glm::vec<3, T>& corner, const glm::vec<3, T>& edge_u, const glm::vec<3, T>& edge_v) noexcept
-        : scale_{real::max(longest_component(edge_u), longest_component(edge_v))},
-          corner_{corner / scale_},
-          edge_u_{edge_u / scale_},
-          edge_v_{edge_v / scale_},
+    // Worked in units near the longest edge: squares of tiny or huge edges would leave float's range. A power of two
+    // rounds nothing.
+    [[gnu::always_inline]] FlatView(const glm::vec<3, T>& corner, const glm::vec<3, T>& edge_u, const glm::vec<3, T>& edge_v) noexcept
+        : scale_{power_of_two(real::max(longest_component(edge_u), longest_component(edge_v)))},
+          corner_{corner * (1 / scale_)},
+          edge_u_{edge_u * (1 / scale_)},
+          edge_v_{edge_v * (1 / scale_)},
           across_u_{glm::cross(edge_v_, corner_)},
           across_v_{glm::cross(corner_, edge_u_)} {
         constexpr T rounding = 4 * std::numeric_limits<T>::epsilon();
         const glm::vec<3, T> normal = glm::cross(edge_u_, edge_v_);
         unit_area_ = glm::length(normal);
         normal_ = normal / unit_area_;
-        height_ = scale_ * glm::dot(corner_, normal_);
+        height_ = scale_ * (glm::dot(corner_, normal) / unit_area_);
         area_ = unit_area_ * scale_ * scale_ * (is_triangle ? T(0.5) : T(1));
         rounding_u_ = rounding * longest_component(across_u_);
         rounding_v_ = rounding * longest_component(across_v_);
+    }
+
+    // The largest one that is not above x; of numbers too small to have all their digits, that of the least which has.
+    static T power_of_two(T x) noexcept {
+        using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+        constexpr auto exponent = std::bit_cast<Bits>(std::numeric_limits<T>::infinity());
+        return std::bit_cast<T>(std::bit_cast<Bits>(real::max(std::numeric_limits<T>::min(), x)) & exponent);
     }
 
     static T longest_component(const glm::vec<3, T>& v) noexcept {

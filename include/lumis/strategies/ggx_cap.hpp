@@ -21,7 +21,7 @@ class GgxCap {
     static constexpr int dimensions = 2;
 
     // The cap is z > -(1 - shortfall) wo.z, with wo stretched.
-    GgxCap(const Direction<T>& wo, const Ggx<T>& ggx, T shortfall) noexcept
+    [[gnu::always_inline]] GgxCap(const Direction<T>& wo, const Ggx<T>& ggx, T shortfall) noexcept
         : ggx_{ggx}, wo_{above_horizon_or_zero(wo)} {
         const T length = ggx_.stretched_length(wo_);
         if (!is_squared_length(length * length)) return;
@@ -44,7 +44,7 @@ class GgxCap {
     // Of what is drawn, a vector of any length, for those who need no unit one. Its z is kept as a sum of positive
     // products: the textbook's cancels at grazing incidence.
     template <RealOf<T> R = T>
-    [[nodiscard]] Direction<R> along_normal(glm::vec<2, R> u) const noexcept {
+    [[nodiscard, gnu::always_inline]] Direction<R> along_normal(glm::vec<2, R> u) const noexcept {
         const Direction<R> reflected = direction_at(R(u.x * cap_height_), u.y);
         return {ggx_.alpha().x * (reflected.x + wo_std_.x), ggx_.alpha().y * (reflected.y + wo_std_.y),
                 (1 - u.x) * cap_height_ + shortfall_ * wo_std_.z};
