@@ -17,7 +17,7 @@ namespace detail {
 template <std::floating_point T>
 [[nodiscard]] T bounded_cap_shortfall(const Direction<T>& wo, const glm::vec<2, T>& alpha) noexcept {
     const T a = real::min(real::min(alpha.x, alpha.y), T(1));
-    const T s = 1 + std::sqrt(wo.x * wo.x + wo.y * wo.y);
+    const T s = 1 + real::sqrt(wo.x * wo.x + wo.y * wo.y);
     const T a2 = a * a, s2 = s * s, z2 = wo.z * wo.z;
     return a2 * (s2 + z2) / (s2 + a2 * z2);
 }
@@ -34,7 +34,7 @@ struct GgxBoundedNormals : GgxCap<T> {
 template <std::floating_point T = float>
 struct GgxBoundedReflection : Reflected<detail::GgxBoundedNormals<T>> {
     // wo: unit; on or below the horizon nothing is drawn. alpha: roughness along x and y, see ggx_min_alpha.
-    GgxBoundedReflection(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept
+    [[gnu::always_inline]] GgxBoundedReflection(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept
         : Reflected<detail::GgxBoundedNormals<T>>{wo, detail::GgxBoundedNormals<T>{wo, Ggx<T>{alpha}}} {}
 
     // The surface, for its reflectance: ggx().brdf(wo, wi).

@@ -10,7 +10,7 @@ namespace lumis {
 
 template <std::floating_point T = float>
 struct GgxReflection : Reflected<GgxVndf<T>> {
-    GgxReflection(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept
+    [[gnu::always_inline]] GgxReflection(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept
         : Reflected<GgxVndf<T>>{wo, GgxVndf<T>{wo, alpha}} {}
 
     // The surface, for its reflectance: ggx().brdf(wo, wi).

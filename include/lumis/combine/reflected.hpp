@@ -21,7 +21,8 @@ class Reflected {
                   "Reflected needs a strategy over normals, with a density per solid angle");
 
     // wo: unit; on or below the horizon nothing is drawn.
-    [[gnu::always_inline]] Reflected(const Point& wo, const Normals& normals) noexcept : wo_{above_horizon_or_zero(wo)}, normals_{normals} {}
+    [[gnu::always_inline]] Reflected(const Point& wo, const Normals& normals) noexcept
+        : wo_{above_horizon_or_zero(wo)}, normals_{normals} {}
 
     // Normals that reflect below the horizon draw nothing. The density is that of the direction as rounded, so that it
     // cancels exactly against a reflectance evaluated there.
@@ -45,7 +46,7 @@ class Reflected {
         if constexpr (requires { normals_.pdf_per_cosine(half); }) {
             density = normals_.pdf_per_cosine(half) / 4;
         } else {
-            const R length = glm::length(half);
+            const R length = real::length(half);
             density = normals_.pdf(Direction<R>(half / length)) / (2 * length);
         }
         return density_or_zero(real::select(wi.z > 0 && wo_.z > 0, density, 0));
@@ -53,7 +54,7 @@ class Reflected {
 
     [[nodiscard]] UniformsOf<Normals> invert(const Point& wi) const noexcept requires InvertibleStrategy<Normals> {
         const Point half = wo_ + wi;
-        return normals_.invert(half / glm::length(half));
+        return normals_.invert(half / real::length(half));
     }
 
     [[nodiscard]] const Normals& normals() const noexcept { return normals_; }

@@ -117,7 +117,7 @@ template <Real R>
 
 // The fraction of a turn, in [0, 1), at which (x, y) lies: the inverse of unit_circle. (0, 0) gives 0.
 template <Real R>
-[[nodiscard]] R turn_of(R x, std::type_identity_t<R> y) noexcept {
+[[nodiscard, gnu::always_inline]] inline R turn_of(R x, std::type_identity_t<R> y) noexcept {
     const R turn = signed_turn_of(x, y);
     const R wrapped = real::select(turn < 0, turn + 1, turn);
     return real::select(wrapped < 1, wrapped, 0);
@@ -127,7 +127,7 @@ namespace real {
 
 // atan2(y, x) in radians; (0, 0) gives 0.
 template <Real R>
-[[nodiscard]] R atan2(R y, std::type_identity_t<R> x) noexcept {
+[[nodiscard, gnu::always_inline]] inline R atan2(R y, std::type_identity_t<R> x) noexcept {
     return 2 * std::numbers::pi_v<scalar_of<R>> * signed_turn_of(R(x), y);
 }
 

@@ -14,7 +14,7 @@ template <std::floating_point T = float>
 class Frame {
   public:
     // Any frame around a unit normal (Duff et al. 2017, "Building an Orthonormal Basis, Revisited", listing 3).
-    explicit Frame(const Direction<T>& normal) noexcept : normal_{normal} {
+    [[gnu::always_inline]] explicit Frame(const Direction<T>& normal) noexcept : normal_{normal} {
         const T sign = std::copysign(T(1), normal.z);
         const T a = T(-1) / (sign + normal.z);
         const T b = normal.x * normal.y * a;

@@ -10,7 +10,7 @@ namespace lumis {
 // (u, v) of a direction, of any length whose square is in range; both in [0, 1], and NaN for a NaN. acos(y) is had from
 // both sides of its angle: near the poles a float y has no digits left.
 template <Real R>
-[[nodiscard]] glm::vec<2, R> latlong_from_direction(const Direction<R>& w) noexcept {
+[[nodiscard, gnu::always_inline]] inline glm::vec<2, R> latlong_from_direction(const Direction<R>& w) noexcept {
     const R u = scalar_of<R>(0.5) + signed_turn_of(w.x, w.z);
     const R v = 2 * signed_turn_of(w.y, real::sqrt(R(w.x * w.x + w.z * w.z)));
     return {real::select(u < 1, u, u - 1), v};

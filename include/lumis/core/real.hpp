@@ -1,5 +1,9 @@
 // What kernels ask of a number. A kernel is written once, for a Real: a floating-point type for the single call, or
 // several lanes of one (see batch/lanes.hpp). Where lanes may differ, a kernel selects instead of branching.
+//
+// What makes a strategy or samples it is inlined by decree (gnu::always_inline). Compilers do not by themselves, and hand
+// vectors over in memory, written in parts and read as a whole: a processor then waits until all that came before is done,
+// table look-ups too.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -47,10 +51,26 @@ using MaskOf = decltype(R{} < R{});
 
 namespace real {
 
+// Of a number by the machine's instruction: around that, std::sqrt has a comparison and a call for the sake of errno.
+// Without AVX, making a vector of the number costs as much.
 template <Real R>
-[[nodiscard]] R sqrt(R x) noexcept {
+[[nodiscard, gnu::always_inline]] inline R sqrt(R x) noexcept {
+#ifdef __AVX__
+    if constexpr (std::same_as<R, float>) {
+        using Vector [[gnu::vector_size(16)]] = float;
+        return __builtin_ia32_sqrtss(Vector{x})[0];
+    } else if constexpr (std::same_as<R, double>) {
+        using Vector [[gnu::vector_size(16)]] = double;
+        return __builtin_ia32_sqrtsd(Vector{x})[0];
+    }
+#endif
     using std::sqrt;
     return sqrt(x);
+}
+
+template <Real R>
+[[nodiscard, gnu::always_inline]] inline R length(const glm::vec<3, R>& v) noexcept {
+    return sqrt(R(v.x * v.x + v.y * v.y + v.z * v.z));
 }
 
 template <Real R>

@@ -24,7 +24,7 @@ template <std::floating_point T = float>
 class Ggx {
   public:
     // Roughness along x and y.
-    explicit Ggx(glm::vec<2, T> alpha) noexcept : alpha_{in_range(alpha.x), in_range(alpha.y)} {
+    [[gnu::always_inline]] explicit Ggx(glm::vec<2, T> alpha) noexcept : alpha_{in_range(alpha.x), in_range(alpha.y)} {
         if (alpha_.x * alpha_.y > 0) {
             inverse_alpha_ = T(1) / alpha_;
         } else {

@@ -35,7 +35,7 @@ class GgxCap {
     template <RealOf<T> R = T>
     [[nodiscard]] Sample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         const Direction<R> normal = along_normal(u);
-        const R length = glm::length(normal);
+        const R length = real::length(normal);
         Sample<Direction<R>, R> drawn{normal / real::select(length > 0, length, 1)};
         drawn.pdf = pdf(drawn.value);
         return drawn;
@@ -63,7 +63,7 @@ class GgxCap {
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& wm) const noexcept {
         const Direction<T> stretched{wm.x / ggx_.alpha().x, wm.y / ggx_.alpha().y, wm.z};
-        const Direction<T> half = stretched / glm::length(stretched);
+        const Direction<T> half = stretched / real::length(stretched);
         const Direction<T> reflected = 2 * glm::dot(wo_std_, half) * half - wo_std_;
         return {versine_of(reflected) / cap_height_, turn_of(reflected.x, reflected.y)};
     }

@@ -31,7 +31,7 @@ class GgxNdf {
         const auto circle = unit_circle(u.y);
         const Direction<R> normal{ggx_.alpha().x * radius * circle.x, ggx_.alpha().y * radius * circle.y,
                                   real::sqrt(R(1 - u.x))};
-        const R length = glm::length(normal);
+        const R length = real::length(normal);
         Sample<Direction<R>, R> drawn{normal / real::select(length > 0, length, 1)};
         drawn.pdf = pdf(drawn.value);
         return drawn;

@@ -9,7 +9,8 @@ namespace lumis {
 template <std::floating_point T = float>
 struct GgxVndf : detail::GgxCap<T> {
     // wo: unit; on or below the horizon nothing is drawn. alpha: roughness along x and y, see ggx_min_alpha.
-    GgxVndf(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept : detail::GgxCap<T>{wo, Ggx<T>{alpha}, T(0)} {}
+    [[gnu::always_inline]] GgxVndf(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept
+        : detail::GgxCap<T>{wo, Ggx<T>{alpha}, T(0)} {}
 };
 
 }  // namespace lumis
