@@ -45,7 +45,7 @@ class AreaLight<Shape, ByArea> {
     static constexpr int dimensions = 2;
 
     [[gnu::always_inline]] AreaLight(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept
-        : view_{shape, reference_point} {}
+        : view_{shape, reference_point}, pdf_area_{1 / view_.area()} {}
 
     template <RealOf<Scalar> R = Scalar>
     [[nodiscard, gnu::always_inline]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
@@ -80,10 +80,11 @@ class AreaLight<Shape, ByArea> {
   private:
     template <Real R>
     [[nodiscard]] R density(R distance, R cos_light) const noexcept {
-        return area_to_solid_angle(1 / view_.area(), distance, cos_light);
+        return area_to_solid_angle(pdf_area_, distance, cos_light);
     }
 
     typename detail::ViewOf<Shape>::type view_;
+    Scalar pdf_area_;
 };
 
 template <class Shape, class T>

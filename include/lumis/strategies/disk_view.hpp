@@ -21,7 +21,7 @@ class DiskView {
     DiskView(const Disk<T>& disk, const glm::vec<3, T>& reference_point) noexcept
         : center_{disk.center - reference_point},
           radius_{disk.radius > 0 ? disk.radius : T(0)},
-          frame_{disk.normal / glm::length(disk.normal)},
+          frame_{disk.normal / real::length(disk.normal)},
           height_{glm::dot(center_, frame_.normal())} {}
 
     [[nodiscard]] T area() const noexcept { return std::numbers::pi_v<T> * radius_ * radius_; }
@@ -40,10 +40,10 @@ class DiskView {
     template <RealOf<T> R = T>
     [[nodiscard]] SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
         const R cos_light = glm::dot(w, Direction<R>(frame_.normal()));
-        const R distance = height_ / cos_light;
-        const R rounding = 4 * std::numeric_limits<T>::epsilon() * distance / real::abs(cos_light);
-        const R across = glm::length(distance * w - glm::vec<3, R>(center_));
-        return hit_if(distance > 0 && across <= radius_ + rounding, distance, cos_light);
+        const R inverse = 1 / cos_light, distance = height_ * inverse;
+        const R radius = radius_ + 4 * std::numeric_limits<T>::epsilon() * distance * real::abs(inverse);
+        const glm::vec<3, R> across = distance * w - glm::vec<3, R>(center_);
+        return hit_if(distance > 0 && glm::dot(across, across) <= radius * radius, distance, cos_light);
     }
 
     [[nodiscard]] glm::vec<2, T> invert(const Direction<T>& w) const noexcept {

@@ -24,10 +24,12 @@ class FlatView {
     static constexpr bool is_triangle = std::same_as<Shape, Triangle<T>>;
 
   public:
-    [[gnu::always_inline]] FlatView(const Shape& shape, const glm::vec<3, T>& reference_point) noexcept requires is_triangle
+    [[gnu::always_inline]] FlatView(const Shape& shape,
+                                    const glm::vec<3, T>& reference_point) noexcept requires is_triangle
         : FlatView{shape.a - reference_point, shape.b - shape.a, shape.c - shape.a} {}
 
-    [[gnu::always_inline]] FlatView(const Shape& shape, const glm::vec<3, T>& reference_point) noexcept requires(!is_triangle)
+    [[gnu::always_inline]] FlatView(const Shape& shape, const glm::vec<3, T>& reference_point) noexcept
+        requires(!is_triangle)
         : FlatView{shape.corner - reference_point, shape.edge_u, shape.edge_v} {}
 
     [[nodiscard]] T area() const noexcept { return area_; }
@@ -42,13 +44,14 @@ class FlatView {
             t = root * u.y;
         }
         using Vector = glm::vec<3, R>;
-        return {R(scale_) * (Vector(corner_) + s * Vector(edge_u_) + t * Vector(edge_v_)), height_};
+        return {Vector(corner_) + s * Vector(edge_u_) + t * Vector(edge_v_), height_};
     }
 
     // The vertex all edges start from, relative to the reference point, and the edges; in units near the longest edge.
-    [[nodiscard]] const glm::vec<3, T>& corner() const noexcept { return corner_; }
-    [[nodiscard]] const glm::vec<3, T>& edge_u() const noexcept { return edge_u_; }
-    [[nodiscard]] const glm::vec<3, T>& edge_v() const noexcept { return edge_v_; }
+    [[nodiscard]] glm::vec<3, T> corner() const noexcept { return corner_ * (1 / unit_); }
+    [[nodiscard]] glm::vec<3, T> edge_u() const noexcept { return edge_u_ * (1 / unit_); }
+    [[nodiscard]] glm::vec<3, T> edge_v() const noexcept { return edge_v_ * (1 / unit_); }
+    [[nodiscard]] T unit() const noexcept { return unit_; }
 
     // True if the reference point lies in the plane, or the shape has no area.
     [[nodiscard]] bool edge_on() const noexcept { return !(std::abs(height_) > 0); }
@@ -61,8 +64,8 @@ class FlatView {
 
     // The u that sample maps to the point that w meets.
     [[nodiscard]] glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
-        const T determinant = glm::dot(w, normal_) * unit_area_;
-        const T s = glm::dot(w, across_u_) / determinant, t = glm::dot(w, across_v_) / determinant;
+        const T cos_light = glm::dot(w, normal_);
+        const T s = glm::dot(w, across_u_) / cos_light, t = glm::dot(w, across_v_) / cos_light;
         if constexpr (is_triangle) {
             return {(s + t) * (s + t), s + t > 0 ? t / (s + t) : T(0)};
         } else {
@@ -70,36 +73,35 @@ class FlatView {
         }
     }
 
-    // w: unit. By triple products (Moller and Trumbore 1997). The edges give way by the rounding of w, so that a
-    // direction drawn to a point on an edge meets it.
+    // w: unit. By triple products (Moller and Trumbore 1997), which are compared before they are divided by the cosine. The
+    // edges give way by the rounding of w, so that a direction drawn to a point on an edge meets it.
     template <RealOf<T> R = T>
     [[nodiscard]] SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
         const R cos_light = glm::dot(w, Direction<R>(normal_));
-        const R distance = height_ / cos_light;
-        const R scale = 1 / (cos_light * unit_area_), precision = real::abs(scale);
-        const R s = glm::dot(w, Direction<R>(across_u_)) * scale, slack_s = rounding_u_ * precision;
-        const R t = glm::dot(w, Direction<R>(across_v_)) * scale, slack_t = rounding_v_ * precision;
+        const R distance = height_ / cos_light, far = real::abs(cos_light), sign = real::copysign(R(T(1)), cos_light);
+        const R s = sign * glm::dot(w, Direction<R>(across_u_)), t = sign * glm::dot(w, Direction<R>(across_v_));
         const auto below_far_edges =
-            is_triangle ? s + t <= 1 + slack_s + slack_t : s <= 1 + slack_s && t <= 1 + slack_t;
-        return hit_if(distance > 0 && s >= -slack_s && t >= -slack_t && below_far_edges, distance, cos_light);
+            is_triangle ? s + t <= far + (rounding_u_ + rounding_v_) : s <= far + rounding_u_ && t <= far + rounding_v_;
+        return hit_if(distance > 0 && s >= -rounding_u_ && t >= -rounding_v_ && below_far_edges, distance, cos_light);
     }
 
   private:
     // Worked in units near the longest edge: squares of tiny or huge edges would leave float's range. A power of two
     // rounds nothing.
-    [[gnu::always_inline]] FlatView(const glm::vec<3, T>& corner, const glm::vec<3, T>& edge_u, const glm::vec<3, T>& edge_v) noexcept
-        : scale_{power_of_two(real::max(longest_component(edge_u), longest_component(edge_v)))},
-          corner_{corner * (1 / scale_)},
-          edge_u_{edge_u * (1 / scale_)},
-          edge_v_{edge_v * (1 / scale_)},
-          across_u_{glm::cross(edge_v_, corner_)},
-          across_v_{glm::cross(corner_, edge_u_)} {
+    [[gnu::always_inline]] FlatView(const glm::vec<3, T>& corner, const glm::vec<3, T>& edge_u,
+                                    const glm::vec<3, T>& edge_v) noexcept
+        : corner_{corner},
+          edge_u_{edge_u},
+          edge_v_{edge_v},
+          unit_{power_of_two(real::max(longest_component(edge_u), longest_component(edge_v)))} {
         constexpr T rounding = 4 * std::numeric_limits<T>::epsilon();
-        const glm::vec<3, T> normal = glm::cross(edge_u_, edge_v_);
-        unit_area_ = glm::length(normal);
-        normal_ = normal / unit_area_;
-        height_ = scale_ * (glm::dot(corner_, normal) / unit_area_);
-        area_ = unit_area_ * scale_ * scale_ * (is_triangle ? T(0.5) : T(1));
+        const glm::vec<3, T> start = this->corner(), u = this->edge_u(), v = this->edge_v(), normal = glm::cross(u, v);
+        const T area = real::length(normal), inverse = 1 / area;  // of the parallelogram of the edges
+        normal_ = normal * inverse;
+        height_ = unit_ * (glm::dot(start, normal) * inverse);
+        area_ = area * unit_ * unit_ * (is_triangle ? T(0.5) : T(1));
+        across_u_ = glm::cross(v, start) * inverse;
+        across_v_ = glm::cross(start, u) * inverse;
         rounding_u_ = rounding * longest_component(across_u_);
         rounding_v_ = rounding * longest_component(across_v_);
     }
@@ -115,14 +117,13 @@ class FlatView {
         return real::max(real::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
     }
 
-    T scale_;
-    glm::vec<3, T> corner_, edge_u_, edge_v_;  // relative to the reference point, in units of scale_
-    glm::vec<3, T> across_u_, across_v_;       // a ray's s and t are its triple products with these
-    T unit_area_;                              // of the parallelogram of the edges, in units of scale_^2
+    glm::vec<3, T> corner_, edge_u_, edge_v_;  // relative to the reference point
+    T unit_;                                   // that is worked in
+    glm::vec<3, T> across_u_, across_v_;       // a ray's s and t are its products with these over its cosine
     Direction<T> normal_;
     T height_;                   // of the plane over the reference point, along the normal; signed
     T area_;                     // of the shape
-    T rounding_u_, rounding_v_;  // by how much the triple products move when w is rounded
+    T rounding_u_, rounding_v_;  // by how much those products move when w is rounded
 };
 
 }  // namespace lumis
