@@ -22,20 +22,22 @@ class SphereView {
     // A sphere whose radius is not positive, or a number out of range, subtends nothing; nor does one from its own surface,
     // to which the distance is 0.
     [[gnu::always_inline]] SphereView(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point) noexcept
-        : center_{sphere.center - reference_point},
-          radius_{sphere.radius},
-          distance_{glm::length(center_)},
-          tangent_squared_{power_of(center_, radius_)},
-          inside_{tangent_squared_ < 0},
-          axis_{is_squared_length(distance_ * distance_) ? Frame<T>{center_ / distance_}
-                                                         : Frame<T>{Direction<T>{0, 0, 1}}} {
-        const T sine = radius_ / distance_;
-        const T cosine = std::sqrt(tangent_squared_) / distance_;
-        versine_ = inside_ ? T(2) : sine * sine / (1 + cosine);
-        chord_ = std::sqrt(2 * versine_) + 8 * std::numeric_limits<T>::epsilon();
-        const bool has_axis = inside_ || is_squared_length(distance_ * distance_);
+        : center_{sphere.center - reference_point}, radius_{sphere.radius}, axis_{Direction<T>{0, 0, 1}} {
+        // In double: just above the surface the rounding of a float distance is as large as the height.
+        const glm::dvec3 center{center_};
+        const double squared = glm::dot(center, center), r = radius_;
+        distance_ = real::sqrt(static_cast<T>(squared));
+        tangent_squared_ = static_cast<T>(squared - r * r);
+        inside_ = tangent_squared_ < 0;
+        const bool has_axis = is_squared_length(distance_ * distance_);
+        if (has_axis) axis_ = Frame<T>{center_ / distance_};
+        const T tangent = real::sqrt(tangent_squared_);
+        versine_ = inside_ ? T(2) : radius_ / distance_ * (radius_ / (distance_ + tangent));
+        chord_ = real::sqrt(2 * versine_) + 8 * std::numeric_limits<T>::epsilon();
         const bool touches = tangent_squared_ == 0;
-        if (!(has_axis && !touches && radius_ > 0 && radius_ <= std::numeric_limits<T>::max())) versine_ = radius_ = 0;
+        if (!((has_axis || inside_) && !touches && radius_ > 0 && radius_ <= std::numeric_limits<T>::max())) {
+            versine_ = radius_ = 0;
+        }
     }
 
     [[nodiscard]] T area() const noexcept { return 4 * std::numbers::pi_v<T> * radius_ * radius_; }
@@ -77,27 +79,19 @@ class SphereView {
     // it gives way by the rounding of w, so that a direction drawn at the rim is found on the sphere.
     template <RealOf<T> R = T>
     [[nodiscard]] MaskOf<R> contains(const Direction<R>& w) const noexcept {
-        return inside_ || glm::length(w - Direction<R>(axis_.normal())) <= chord_;
+        return inside_ || real::length(w - Direction<R>(axis_.normal())) <= chord_;
     }
 
     template <RealOf<T> R = T>
     [[nodiscard]] SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
         const glm::vec<3, R> center{center_};
         const R along = glm::dot(center, w);
-        const R across = glm::length(center - along * w);
+        const R across = real::length(center - along * w);
         return hit_if(inside_ || (along > 0 && contains(w)), distance_along(along, across),
                       half_chord_at(across) / radius_);
     }
 
   private:
-    // Squared length of the tangent from the origin to the sphere; negative inside. In double: just above the surface the
-    // rounding of a float distance is as large as the height.
-    static T power_of(const glm::vec<3, T>& center, T radius) noexcept {
-        const glm::dvec3 c{center};
-        const double distance = glm::length(c), r = radius;
-        return static_cast<T>((distance - r) * (distance + r));
-    }
-
     // Half the length of the chord that a line cuts out of the sphere when it passes its centre at a distance `across`.
     template <Real R>
     [[nodiscard]] R half_chord_at(R across) const noexcept {
@@ -115,7 +109,7 @@ class SphereView {
     glm::vec<3, T> center_;  // relative to the reference point
     T radius_;
     T distance_;         // to the centre
-    T tangent_squared_;  // of the tangent's length
+    T tangent_squared_;  // of the tangent's length; negative inside
     bool inside_;
     Frame<T> axis_;  // its normal points at the centre
     T versine_;      // 1 - cos of the half-angle subtended; 2 from inside
