@@ -83,6 +83,27 @@ TEMPLATE_TEST_CASE("the solid angle of rectangles is the closed form's", "[spher
     CHECK(Rectangle{-4096, 4096, -8192, 8192, 1}.solid_angle() > 6.28L);
 }
 
+// Their sides span nearly half a turn, as do those of the triangles that they are made of.
+TEMPLATE_TEST_CASE("the solid angle of long rectangles that pass close by", "[spherical_rectangle]", float, double) {
+    using T = TestType;
+    std::mt19937_64 engine{1};
+    std::uniform_real_distribution<double> uniform{0, 1};
+    const auto power = [&](double low, double high) { return std::pow(10, low + (high - low) * uniform(engine)); };
+    double worst = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        const T width = static_cast<T>(power(0, 2)), height = static_cast<T>(power(-2, 2));
+        const T x = width * static_cast<T>(uniform(engine) - 1), y = height * static_cast<T>(2 * uniform(engine) - 1.5);
+        const T z = static_cast<T>(power(-3, 0));
+        using Wide = long double;
+        const Wide exact = polygons::rectangle_solid_angle(x, Wide{x} + width, y, Wide{y} + height, z);
+        const Light<T> light{lumis::Parallelogram<T>{{x, y, z}, {width, T(0), T(0)}, {T(0), height, T(0)}}, origin<T>};
+        if (!(exact > 0.02)) continue;
+        worst = std::fmax(worst, std::abs(static_cast<double>(light.solid_angle() - exact)));
+    }
+    INFO(worst / std::numeric_limits<T>::epsilon() << " epsilon");
+    CHECK(worst <= 16 * std::numeric_limits<T>::epsilon());
+}
+
 // u.x is the share of the solid angle on this side of x, u.y the share of the height's sine along the line at x; where
 // the shape is split, see below.
 TEMPLATE_TEST_CASE("a uniform cuts its share off a rectangle", "[spherical_rectangle]", float, double) {

@@ -17,7 +17,8 @@ namespace detail {
 // Nothing where rounding has put the direction beside the light, or left none: of a sliver not wider than its coordinates' last
 // place. On a sphere's surface the distance is 0.
 template <Real R>
-[[nodiscard]] LightSample<Direction<R>, R> seen_at(const Direction<R>& w, scalar_of<R> pdf, R distance) noexcept {
+[[nodiscard, gnu::always_inline]] inline LightSample<Direction<R>, R> seen_at(const Direction<R>& w, scalar_of<R> pdf,
+                                                                              R distance) noexcept {
     constexpr auto rounding = 64 * std::numeric_limits<R>::epsilon();
     const auto seen =
         real::abs(R(glm::dot(w, w) - 1)) <= rounding && distance >= 0 && distance <= std::numeric_limits<R>::max();
@@ -70,7 +71,7 @@ class AreaLight<Triangle<T>, BySolidAngle> {
     using Measure = measure::SolidAngle;
     static constexpr int dimensions = 2;
 
-    AreaLight(const Triangle<T>& triangle, const glm::vec<3, T>& reference_point) noexcept
+    [[gnu::always_inline]] AreaLight(const Triangle<T>& triangle, const glm::vec<3, T>& reference_point) noexcept
         : view_{triangle, reference_point},
           seen_{view_.corner(), view_.corner() + view_.edge_u(), view_.corner() + view_.edge_v(), view_.edge_u(),
                 view_.edge_v()},
@@ -78,7 +79,7 @@ class AreaLight<Triangle<T>, BySolidAngle> {
 
     // u.x cuts off a share of the solid angle by an arc from a to the edge bc; u.y goes along that arc.
     template <RealOf<T> R = T>
-    [[nodiscard]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+    [[nodiscard, gnu::always_inline]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         const Direction<R> w = seen_.sample(u);
         return detail::seen_at(w, pdf_, view_.distance_along(w));
     }
@@ -111,32 +112,34 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     using Measure = measure::SolidAngle;
     static constexpr int dimensions = 2;
 
-    AreaLight(const Parallelogram<T>& shape, const glm::vec<3, T>& reference_point) noexcept
-        : view_{shape, reference_point},
-          first_{half(view_.edge_u(), view_.edge_u() + view_.edge_v())},
-          second_{half(view_.edge_v(), view_.edge_u() + view_.edge_v())},
-          solid_angle_{!view_.edge_on() && first_.solid_angle() > 0 && second_.solid_angle() > 0
-                           ? first_.solid_angle() + second_.solid_angle()
-                           : T(0)},
-          pdf_{density_or_zero(1 / solid_angle_)} {
+    [[gnu::always_inline]] AreaLight(const Parallelogram<T>& shape, const glm::vec<3, T>& reference_point) noexcept
+        : view_{shape, reference_point}, rectangle_{view_.corner(), view_.edge_u(), view_.edge_v()} {
         constexpr T epsilon = std::numeric_limits<T>::epsilon();
-        const T square = glm::dot(view_.edge_u(), view_.edge_u()) * glm::dot(view_.edge_v(), view_.edge_v());
-        const bool is_rectangle = std::abs(glm::dot(view_.edge_u(), view_.edge_v())) <= 4 * epsilon * std::sqrt(square);
-        // What Urena's angles lose, epsilon over the solid angle, is then below 1e-5 of the edges. They square the height.
-        const T height = glm::dot(view_.corner(), glm::cross(view_.edge_u(), view_.edge_v()));
-        if (is_rectangle && solid_angle_ > 1e5f * epsilon && is_squared_length(height * height)) {
-            rectangle_.emplace(view_.corner(), view_.edge_u(), view_.edge_v(), solid_angle_);
-            solid_angle_ = rectangle_->solid_angle();
-            pdf_ = density_or_zero(1 / solid_angle_);
+        const glm::vec<3, T> corner = view_.corner(), u = view_.edge_u(), v = view_.edge_v();
+        const T square = glm::dot(u, u) * glm::dot(v, v), volume = glm::dot(corner, glm::cross(u, v));
+        solid_angle_ = rectangle_.solid_angle();
+        // What Urena's angles lose, epsilon over the solid angle, has to be below 1e-5 of the edges. They square the volume.
+        if (!(std::abs(glm::dot(u, v)) <= 4 * epsilon * real::sqrt(square) && is_squared_length(volume * volume) &&
+              solid_angle_ > 1e5f * epsilon)) {
+            halves_.emplace(
+                Halves{{corner, corner + u, corner + u + v, u, u + v}, {corner, corner + v, corner + u + v, v, u + v}});
+            const T first = halves_->first.solid_angle(), second = halves_->second.solid_angle();
+            solid_angle_ = !view_.edge_on() && first > 0 && second > 0 ? first + second : T(0);
         }
+        pdf_ = density_or_zero(1 / solid_angle_);
     }
 
     // u.x goes along the first edge and u.y along the second or, where the shape is split, u.x from the first edge by way
     // of the diagonal to the second, and u.y away from the corner.
     template <RealOf<T> R = T>
-    [[nodiscard]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
-        const Direction<R> w = direction(u);
-        return detail::seen_at(w, pdf_, view_.distance_along(w));
+    [[nodiscard, gnu::always_inline]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+        if (halves_) {
+            const Direction<R> w = halves_->sample(u);
+            return detail::seen_at(w, pdf_, view_.distance_along(w));
+        }
+        const glm::vec<3, R> position = rectangle_.sample(u);
+        const R distance = real::length(position);
+        return detail::seen_at(position * (1 / distance), pdf_, distance * view_.unit());
     }
 
     template <RealOf<T> R = T>
@@ -145,11 +148,12 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept {
-        if (rectangle_) return rectangle_->invert(w);
-        const T share = first_.solid_angle() / solid_angle_;
+        if (!halves_) return rectangle_.invert(w);
+        const auto& [first, second] = *halves_;
+        const T share = halves_->share_of_first();
         const glm::vec<3, T> across = glm::cross(view_.corner(), view_.edge_u() + view_.edge_v());  // of the diagonal
         const bool in_first = glm::dot(w, across) * glm::dot(view_.edge_u(), across) > 0;
-        const glm::vec<2, T> u = in_first ? first_.invert(w) : second_.invert(w);
+        const glm::vec<2, T> u = in_first ? first.invert(w) : second.invert(w);
         return {in_first ? u.x * share : 1 - u.x * (1 - share), u.y};
     }
 
@@ -158,29 +162,32 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     [[nodiscard]] T solid_angle() const noexcept { return solid_angle_; }
 
   private:
-    template <Real R>
-    [[nodiscard]] Direction<R> direction(glm::vec<2, R> u) const noexcept {
-        if (rectangle_) return glm::normalize(rectangle_->sample(u));
-        const T share = first_.solid_angle() / solid_angle_;
-        return real::either(
-            u.x < share,
-            [&] {
-                return first_.sample(glm::vec<2, R>{u.x / share, u.y});
-            },
-            [&] {
-                return second_.sample(glm::vec<2, R>{(1 - u.x) / (1 - share), u.y});
-            });
-    }
+    // Each from an edge to the diagonal, which may span half a turn.
+    struct Halves {
+        SphericalTriangle<T> first, second;
 
-    // The triangle of the corner and the ends of two vectors from it.
-    [[nodiscard]] SphericalTriangle<T> half(const glm::vec<3, T>& ab, const glm::vec<3, T>& ac) const noexcept {
-        return {view_.corner(), view_.corner() + ab, view_.corner() + ac, ab, ac};
-    }
+        [[nodiscard]] T share_of_first() const noexcept {
+            return first.solid_angle() / (first.solid_angle() + second.solid_angle());
+        }
+
+        template <Real R>
+        [[nodiscard]] Direction<R> sample(glm::vec<2, R> u) const noexcept {
+            const T share = share_of_first();
+            return real::either(
+                u.x < share,
+                [&] {
+                    return first.sample(glm::vec<2, R>{u.x / share, u.y});
+                },
+                [&] {
+                    return second.sample(glm::vec<2, R>{(1 - u.x) / (1 - share), u.y});
+                });
+        }
+    };
 
     FlatView<Parallelogram<T>> view_;
-    SphericalTriangle<T> first_, second_;  // each from an edge to the diagonal, which may span half a turn
+    SphericalRectangle<T> rectangle_;
+    std::optional<Halves> halves_;  // where it is not a rectangle, or too small a one
     T solid_angle_, pdf_;
-    std::optional<SphericalRectangle<T>> rectangle_;
 };
 
 }  // namespace lumis
