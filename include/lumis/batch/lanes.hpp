@@ -11,6 +11,7 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #ifndef __GNUC__
 #error "lumis/batch is written in the vector extensions of g++ and clang++"
@@ -73,6 +74,15 @@ class Lanes {
         std::memcpy(&result.v_, from, sizeof(Vector));
         return result;
     }
+    // f(0), f(1), ..., f(N - 1), each called with its index as a constant.
+    template <class F>
+    [[nodiscard, gnu::always_inline]] static Lanes of_lanes(F f) noexcept {
+        const auto all = [&]<std::size_t... I>(std::index_sequence<I...>) {
+            return Vector{f(std::integral_constant<std::size_t, I>{})...};
+        };
+        return Lanes{all(std::make_index_sequence<N>{})};
+    }
+
     [[gnu::always_inline]] void store(T* to) const noexcept { std::memcpy(to, &v_, sizeof(Vector)); }
 
     [[nodiscard, gnu::always_inline]] T operator[](std::size_t i) const noexcept { return v_[i]; }

@@ -15,6 +15,7 @@
 #include "lumis/strategies/cumulative_counts.hpp"
 #include "lumis/strategies/guided_rows.hpp"
 
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -97,7 +98,7 @@ class BasicEnvironmentMap {
     // What of a sample is read from the tables: u.y draws the row, u.x the texel within it. Of a float's 2^24 uniforms
     // a texel has as many as its counts; so many different positions it has in either axis, in the middle of equal parts
     // (2048 of them for an average texel in a row of 8192, which is as fine as a float's direction).
-    [[nodiscard]] Drawn<T> draw(glm::vec<2, T> u) const noexcept {
+    [[nodiscard, gnu::always_inline]] Drawn<T> draw(glm::vec<2, T> u) const noexcept {
         const auto texel = grid_.draw(u);
         const Row& row = rows_[texel.row];
         return {(static_cast<T>(texel.column) + texel.position.x) * turn_of_texel_,
@@ -109,15 +110,11 @@ class BasicEnvironmentMap {
     template <Real R>
         requires(!std::same_as<R, T>)
     [[nodiscard]] Drawn<R> draw(glm::vec<2, R> u) const noexcept {
-        Drawn<R> lanes;
-        for (std::size_t i = 0; i < R::size; ++i) {
-            const Drawn<T> drawn = draw(glm::vec<2, T>{u.x[i], u.y[i]});
-            lanes.turn.set(i, drawn.turn);
-            lanes.versine.set(i, drawn.versine);
-            lanes.pole.set(i, drawn.pole);
-            lanes.pdf.set(i, drawn.pdf);
-        }
-        return lanes;
+        std::array<Drawn<T>, R::size> drawn;
+        for (std::size_t i = 0; i < R::size; ++i) drawn[i] = draw(glm::vec<2, T>{u.x[i], u.y[i]});
+        return {R::of_lanes([&](auto i) { return drawn[i].turn; }),
+                R::of_lanes([&](auto i) { return drawn[i].versine; }),
+                R::of_lanes([&](auto i) { return drawn[i].pole; }), R::of_lanes([&](auto i) { return drawn[i].pdf; })};
     }
 
     template <RealOf<T> R = T>
@@ -127,8 +124,7 @@ class BasicEnvironmentMap {
                 std::numeric_limits<T>::infinity()};
     }
 
-    // Inlined, lest w go by way of memory: written there in parts and read as a whole, it would have to wait for every
-    // earlier look-up, and so would the next one.
+    // Read from memory in which it has just been written, w would hold up every look-up, see core/real.hpp.
     template <RealOf<T> R = T>
     [[nodiscard, gnu::always_inline]] R pdf(const Direction<R>& w) const noexcept {
         return pdf_at(latlong_from_direction(w));
@@ -144,9 +140,7 @@ class BasicEnvironmentMap {
     template <Real R>
         requires(!std::same_as<R, T>)
     [[nodiscard]] R pdf_at(const glm::vec<2, R>& uv) const noexcept {
-        R lanes;
-        for (std::size_t i = 0; i < R::size; ++i) lanes.set(i, pdf_at(glm::vec<2, T>{uv.x[i], uv.y[i]}));
-        return lanes;
+        return R::of_lanes([&](auto i) { return pdf_at(glm::vec<2, T>{uv.x[i], uv.y[i]}); });
     }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept requires
