@@ -51,19 +51,21 @@ template <Real R, std::size_t N>
     return largest;
 }
 
-// The sum of term(density). Of very many, what each addition rounds off is carried to the next (Kahan 1965).
+// The sum of term(density). Of very many, what each addition rounds off is added up by itself (Ogita, Rump and Oishi 2005,
+// "Accurate Sum and Dot Product"): no addition waits for it, as in Kahan's sum.
 template <Real R, std::size_t N, class Term>
 [[nodiscard, gnu::always_inline]] inline R sum_of(std::span<const R, N> densities, Term term) noexcept {
     R sum = -scalar_of<R>(0);  // to which a compiler may add by doing nothing, unlike to 0
     if (N != std::dynamic_extent || densities.size() <= 8) {
         for_each_density(densities, [&](R density) { sum += term(density); });
     } else {
-        R missing = scalar_of<R>(0);
+        R rounded_off = scalar_of<R>(0);
         for (const R density : densities) {
-            const R next = term(density) - missing, total = sum + next;
-            missing = (total - sum) - next;
+            const R next = term(density), total = sum + next, added = total - sum;
+            rounded_off += (sum - (total - added)) + (next - added);
             sum = total;
         }
+        sum += rounded_off;
     }
     return sum;
 }
