@@ -17,9 +17,9 @@ double squared(double x) {
     return x * x;
 }
 
-// The least-squares slope of log relative error over log CPU time, without one of the seeds. A point whose error
-// vanishes in that of the reference says nothing.
-double slope_without(const Series& series, std::size_t left_out) {
+// The least-squares slope of log relative error over log effort, without one of the seeds. A point whose error vanishes in
+// that of the reference says nothing.
+double slope_without(const Series& series, Over over, std::size_t left_out) {
     std::vector<double> x, y;
     for (std::size_t point = 0; point < series.samples.size(); ++point) {
         double time = 0, error = 0;
@@ -29,7 +29,7 @@ double slope_without(const Series& series, std::size_t left_out) {
             error += series.runs[seed][point].relative_squared_error;
         }
         if (!(error > 0 && time > 0)) continue;
-        x.push_back(std::log(time));
+        x.push_back(std::log(over == Over::CpuTime ? time : static_cast<double>(series.samples[point])));
         y.push_back(0.5 * std::log(error));
     }
     if (x.size() < 2) return nan;
@@ -85,13 +85,13 @@ Estimate ratio(const lumis::RunningMoments<>& numerator, const lumis::RunningMom
                                       denominator.standard_error() / denominator.mean())};
 }
 
-Estimate slope(const Series& series) {
+Estimate slope(const Series& series, Over over) {
     const std::size_t seeds = series.runs.size();
     lumis::RunningMoments<> without_one;
-    for (std::size_t seed = 0; seed < seeds; ++seed) without_one.add(slope_without(series, seed));
+    for (std::size_t seed = 0; seed < seeds; ++seed) without_one.add(slope_without(series, over, seed));
     const double variance_factor = squared(static_cast<double>(seeds) - 1) / static_cast<double>(seeds);
     const double jackknife = std::sqrt(variance_factor * without_one.variance());
-    return {slope_without(series, seeds), std::max(jackknife, slope_error_of_normal(series))};
+    return {slope_without(series, over, seeds), std::max(jackknife, slope_error_of_normal(series))};
 }
 
 Estimate root_mean_square(const Series& series, std::size_t point) {
@@ -140,7 +140,7 @@ Verdict verdict(const Series& series) {
     const double tail_limit = image ? Rules::tail_share_limit_of_images : Rules::tail_share_limit;
     if (series.pooled.tail_share > tail_limit) return Verdict::HeavyTails;
     if (std::abs(series.pooled.bias_z) > Rules::bias_z_limit) return Verdict::Plateau;
-    const Estimate exponent = slope(series);
+    const Estimate exponent = slope(series, Over::Samples);
     const bool as_expected = std::abs(exponent.value + 0.5) <= slope_limit(series) * exponent.standard_error;
     return as_expected ? Verdict::Converges : Verdict::Unexplained;
 }

@@ -104,10 +104,12 @@ struct Estimate {
 // Of two independent means.
 [[nodiscard]] Estimate ratio(const lumis::RunningMoments<>& numerator, const lumis::RunningMoments<>& denominator);
 
-// The exponent of relative error over CPU time: the least-squares slope of log against log, with its error by leaving
-// out one seed at a time (the jackknife), or of as many normal errors, whichever is larger. -1/2 is Monte Carlo's. What
-// is said of efficiency goes by relative errors as well: a few bright pixels rule an absolute one.
-[[nodiscard]] Estimate slope(const Series& series);
+// The exponent of relative error over effort: the least-squares slope of log against log, with its error by leaving out
+// one seed at a time (the jackknife), or of as many normal errors, whichever is larger. -1/2 is Monte Carlo's: exactly so
+// over samples, and over CPU time a little steeper where a run has a cost of its own. What is said of efficiency goes by
+// relative errors as well: a few bright pixels rule an absolute one.
+enum class Over { CpuTime, Samples };
+[[nodiscard]] Estimate slope(const Series& series, Over over = Over::CpuTime);
 
 // Root mean square error at one sample count.
 [[nodiscard]] Estimate root_mean_square(const Series& series, std::size_t point);
@@ -118,7 +120,7 @@ struct Band {
 };
 [[nodiscard]] Band relative_error(const Series& series, std::size_t point);
 
-// |slope + 1/2| may be this many standard errors.
+// |slope + 1/2| over samples may be this many standard errors.
 [[nodiscard]] double slope_limit(const Series& series);
 
 struct Rules {

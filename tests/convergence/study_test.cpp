@@ -147,6 +147,16 @@ TEST_CASE("a slope that nothing explains is marked") {
     CHECK(verdict(series) == Verdict::Unexplained);
 }
 
+TEST_CASE("what a run costs besides its samples is no convergence") {
+    Series series = power_law(0.2, -0.5);
+    for (auto& run : series.runs) {
+        for (Measurement& m : run) m.cpu_seconds += 0.05;  // half of what the shortest takes
+    }
+    CHECK(slope(series).value <= -0.55);
+    CHECK_THAT(slope(series, Over::Samples).value, WithinAbs(-0.5, 1e-12));
+    CHECK(verdict(series) == Verdict::Converges);
+}
+
 TEST_CASE("the tail share is that of the largest thousandth") {
     std::vector<double> squares(2000, 1.0);
     CHECK_THAT(tail_share(squares), WithinRel(2.0 / 2000, 1e-12));
