@@ -41,7 +41,12 @@ void add_once(const std::string& name, Of of) {
 template <class T, class Light, class Textbook, class Shape>
 void add_light(const std::string& name, const Shape& shape) {
     const glm::vec<3, T> origin = Scene<T>{}.origin;
-    add_strategy<T>(name, ready(Light{shape, origin}), ready(Textbook{shape, origin}));
+    add_strategy<T>(name, lazily([=] {
+                        return Light{shape, origin};
+                    }),
+                    lazily([=] {
+                        return Textbook{shape, origin};
+                    }));
     add_once<T, Light, Textbook>(name, [shape]<class S>(const glm::vec<3, T>& from) { return S{shape, from}; });
 }
 
