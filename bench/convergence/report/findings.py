@@ -17,13 +17,13 @@ def find(results):
         problem["ranking"] = sorted(problem["integrators"], key=rank)
         rivals = [i for i in problem["ranking"] if is_trusted(i) and combines_all(i, problem)]
         problem["fastest"] = next((i for i in rivals if seconds(i)), None)
-        problem["sooner"] = [i for i in problem["ranking"] if is_trusted(i) and not combines_all(i, problem)
-                             and seconds(i) and problem["fastest"] and seconds(i) < seconds(problem["fastest"])]
+        problem["other"] = next((i for i in problem["ranking"] if is_trusted(i) and not combines_all(i, problem)
+                                 and seconds(i)), None)
     return [overview_row(problem) for problem in results["problems"] if problem["fastest"]]
 
 
 def choose_styles(problems):
-    """One marker for each integrator of a plot, and a color that no other one of the same plot has."""
+    """One marker for each integrator of a plot, and a color that as few others of the same plot have as possible."""
     styles = {}
     companies = [[i["name"] for i in problem["integrators"] if i["headline"]] for problem in problems]
     for name in dict.fromkeys(sum(companies, [])):
@@ -56,12 +56,13 @@ def rank(integrator):
 
 def overview_row(problem):
     """How many times as long as the fastest each takes to an error of 1 %; of the techniques alone, the best and the
-    worst."""
+    worst; and the best of those that the problem does not combine."""
     slowdown = {i["name"]: cell(i, problem["fastest"]) for i in problem["integrators"]}
     alone = [slowdown[i["name"]] | {"name": i["name"]} for i in problem["integrators"]
              if i["model"] == "alone" and combines_all(i, problem)]
     alone = sorted(alone, key=lambda one: one["factor"]) or [None]
-    return {"problem": problem, "cells": [slowdown.get(name) for name in COMBINED] + [alone[0], alone[-1]]}
+    other = problem["other"] and slowdown[problem["other"]["name"]] | {"name": problem["other"]["name"]}
+    return {"problem": problem, "cells": [slowdown.get(name) for name in COMBINED] + [alone[0], alone[-1], other]}
 
 
 def cell(integrator, fastest):
@@ -70,12 +71,18 @@ def cell(integrator, fastest):
 
 
 def totals(overview):
-    """Of each column of the overview, the geometric mean and the largest of its factors; and the name of the safest."""
+    """Of each column of the overview: the geometric mean of its factors, how many never arrive, and the largest. And the
+    name in the overview that is the choice where nothing is known, if there are problems enough to tell."""
     columns = [[cell["factor"] for cell in column if cell] for column in zip(*(row["cells"] for row in overview))]
-    typical = [math.exp(sum(map(math.log, factors)) / len(factors)) if factors else math.inf for factors in columns]
-    worst = [max(factors, default=math.inf) for factors in columns]
-    safest = min(range(len(COMBINED)), key=typical.__getitem__) if columns else None
-    return {"typical": typical, "worst": worst, "safest": safest}
+    summaries = []
+    for factors in columns:
+        finite = [factor for factor in factors if math.isfinite(factor)]
+        summaries.append({"typical": math.exp(sum(map(math.log, finite)) / len(finite)) if finite else None,
+                          "never": len(factors) - len(finite), "worst": max(factors, default=None)})
+    combined = dict(zip(COMBINED, summaries))
+    safest = min((name for name in combined if combined[name]["typical"] and not combined[name]["never"]),
+                 key=lambda name: combined[name]["typical"], default=None)
+    return {"columns": summaries, "safest": safest and {"name": safest} | combined[safest] if len(overview) >= 10 else None}
 
 
 def level(factor):

@@ -25,7 +25,7 @@ def figure(value, digits=2):
     """With so many significant digits, a power of ten only where plain decimals would be long: 0.83, 140, 3.2 × 10⁻⁷."""
     if value is None:
         return "–"
-    value = float(f"{value:.{digits}g}")
+    value = float(f"{value:.{digits}g}") + 0.0  # no -0
     scale = magnitude(value)
     if -4 <= scale < 7:
         return decimals(value, digits - 1 - scale if value else 0)
@@ -33,7 +33,7 @@ def figure(value, digits=2):
 
 
 def with_error(value, error):
-    """`value` and "± error": the error to one digit, or two if it begins with 1, the value as far, to four digits at most."""
+    """`value` and "± error": the error to one digit, or two if it begins with 1, and the value as far."""
     if value is None or not error:
         return figure(value), ""
     scale = magnitude(value)
@@ -41,7 +41,7 @@ def with_error(value, error):
     factor = 1 if plain else 10.0 ** scale
     value, error = value / factor, error / factor
     digit, exponent = f"{error:.0e}".split("e")
-    places = min((1 if digit == "1" else 0) - int(exponent), 3 - magnitude(value))
+    places = (1 if digit == "1" else 0) - int(exponent)
     parts = decimals(round(value, places), places), f"± {decimals(round(error, places), places)}"
     return parts if plain else (f"({parts[0]}", f"{parts[1]}) × {power_of_ten(scale)}")
 
@@ -50,13 +50,14 @@ def duration(seconds):
     """Two significant digits in the largest unit of which there is at least one: 51 ns, 6.1 h."""
     if seconds is None:
         return "–"
-    unit, size = max((unit for unit in UNITS if unit[1] <= seconds), key=lambda unit: unit[1], default=UNITS[0])
-    return f"{figure(seconds / size)} {unit}"
+    rounded = float(f"{seconds:.2g}")
+    unit, size = max((unit for unit in UNITS if unit[1] <= rounded), key=lambda unit: unit[1], default=UNITS[0])
+    return f"{figure(seconds / size)}\u00a0{unit}"
 
 
 def percent(fraction):
     """Two significant digits of a fraction as a percentage."""
-    return figure(fraction if fraction is None else 100 * fraction) + ("" if fraction is None else " %")
+    return figure(fraction if fraction is None else 100 * fraction) + ("" if fraction is None else "\u00a0%")
 
 
 def count(number):

@@ -6,19 +6,17 @@ from pathlib import Path
 
 # A tuple holds the types that a value may have, a dict the keys of an object, a list the shape of each of its items.
 # A key that ends in ? may be absent or null, and then becomes None.
-TEXT, TRUTH, COUNT, LIST, NUMBER = (str,), (bool,), (int,), (list,), (int, float, type(None))
+TEXT, TRUTH, COUNT, LIST, KNOWN, NUMBER = (str,), (bool,), (int,), (list,), (int, float), (int, float, type(None))
 EFFORT = {"samples": NUMBER, "cpu_seconds": NUMBER, "extrapolated": TRUTH}
 POINT = {"samples": COUNT} | dict.fromkeys((
-    "cpu_seconds", "cpu_seconds_standard_error", "wall_seconds", "relative_mse", "relative_rmse", "relative_rmse_low",
-    "relative_rmse_high"), NUMBER)
+    "cpu_seconds", "wall_seconds", "relative_rmse", "relative_rmse_low", "relative_rmse_high"), NUMBER)
 INTEGRATOR = {
     "name": TEXT, "model": TEXT, "unbiased": TRUTH, "headline": TRUTH, "verdict": TEXT, "points": [POINT],
     "to_1_percent?": EFFORT, "to_10_percent?": EFFORT, "image?": TEXT, "error_image?": TEXT, "image_spp?": NUMBER,
     "image_seconds?": NUMBER, "fireflies?": COUNT} | dict.fromkeys((
-        "slope", "slope_standard_error", "bias_z", "tail_share", "efficiency_relative_to_power",
-        "efficiency_standard_error"), NUMBER)
+        "slope", "slope_standard_error", "bias_z", "efficiency_relative_to_power", "efficiency_standard_error"), NUMBER)
 AGREEMENT = {"integrators": LIST, "block": COUNT, "blocks": COUNT, "worst_z": NUMBER, "limit": NUMBER}
-REFERENCE = {"source": TEXT, "value?": NUMBER, "value_error?": NUMBER, "rmse": NUMBER, "relative_mse": NUMBER,
+REFERENCE = {"source": TEXT, "value?": NUMBER, "value_error?": NUMBER, "relative_mse": KNOWN,
              "image?": TEXT, "agreement?": AGREEMENT}
 VARIANT = dict.fromkeys((
     "cpu_seconds_per_sample", "cpu_seconds_per_sample_standard_error", "instructions_per_sample", "relative_mse",
@@ -30,13 +28,13 @@ PROBLEM = {"name": TEXT, "group": TEXT, "title": TEXT, "kind": TEXT, "descriptio
            "width?": COUNT, "height?": COUNT, "runs": COUNT, "reference": REFERENCE, "integrators": [INTEGRATOR],
            "left_out?": LEFT_OUT}
 STIFF = {"alphas": LIST, "solid_angles": LIST, "seconds": NUMBER, "runs": COUNT,
-         "integrators": [{"name": TEXT, "relative_error": LIST, "bias_z": LIST}]}
+         "integrators": [{"name": TEXT, "relative_error": LIST}]}
 RESULTS = {"machine": {"cpu": TEXT, "threads": COUNT, "compiler": TEXT, "flags": TEXT, "date": TEXT, "system?": TEXT},
            "build?": {"version?": TEXT, "type?": TEXT, "assertions?": TRUTH},
            "settings": {"seeds": [COUNT]},
            "rules?": dict.fromkeys(("bias_z_limit", "tail_share_limit", "tail_share_limit_of_images",
                                     "slope_significance"), NUMBER),
-           "error_scale?": {"low": NUMBER, "high": NUMBER},
+           "error_scale?": {"low": KNOWN, "high": KNOWN},
            "problems": [PROBLEM], "stiff?": STIFF}
 ROW = {"kernel": TEXT, "case": TEXT, "scalar": TEXT, "reference": TEXT, "evaluations": COUNT, "misbehaved": COUNT,
        "has_error": TRUTH, "has_usual": TRUTH, "has_z": TRUTH, "passed": TRUTH} | dict.fromkeys((
@@ -59,7 +57,7 @@ def load(path):
         if any(errors) and not results["error_scale"]:
             raise ValueError(f"problem {name} has error images, but there is no error_scale")
         for image in filter(None, images + errors):
-            if Path(image).is_absolute() or not (path.parent / image).is_file():
+            if Path(image).name != image or not (path.parent / image).is_file():
                 raise ValueError(f"problem {name}: the image '{image}' is not in the folder of the results")
     stability = path.with_name("stability.json")
     results["stability"] = read(stability, STABILITY) if stability.is_file() else None

@@ -34,7 +34,7 @@ for (const looker of document.querySelectorAll(".looker")) {
   let center = [0.5, 0.5];
 
   function look() {
-    const across = Math.min(Number(range.max) + Number(range.min) - range.value, width, height);
+    const across = Math.min(Number(range.max) + Number(range.min) - range.value, width, height);  // closer: fewer pixels
     const corner = [width, height].map((size, axis) =>
       Math.max(0, Math.min(size - across, Math.round(center[axis] * size - across / 2))));
     for (const {image, marker, canvas} of looks) {
@@ -57,13 +57,13 @@ for (const looker of document.querySelectorAll(".looker")) {
       go([(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height]);
     });
   }
-  Promise.all(looks.map(({image}) => image.decode())).then(() => buttons.length ? buttons[0].click() : look());
+  Promise.allSettled(looks.map(({image}) => image.decode())).then(() => buttons.length ? buttons[0].click() : look());
 }
 
 // A link to a problem opens it.
-function open() {
+function openTarget() {
   const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
   if (target instanceof HTMLDetailsElement) target.open = true;
 }
-addEventListener("hashchange", open);
-open();
+addEventListener("hashchange", openTarget);
+openTarget();

@@ -9,46 +9,43 @@ from matplotlib.colors import LogNorm
 from PIL import Image
 
 from figures import data_uri, picture
-from formats import percent
 
 CMAP = "inferno"
 REGION = 24  # pixels along the edge of what is looked at closely
 
 
 class Pictures:
-    """Reads images beside the results; with `width`, smaller and lossily compressed."""
+    """Reads images beside the results; with `width`, smaller, and renderings lossily compressed."""
 
     def __init__(self, folder, decades, width=None):
         self.folder, self.decades, self.width = folder, decades, width
 
     def image(self, name):
         with Image.open(self.folder / name) as image:
-            return self.encode(image.convert("RGB"), lossless=not self.width)
+            return self.encode(self.shrunk(image.convert("RGB")), lossless=not self.width)
 
     def error(self, name):
         """Levels of grey as false colors."""
-        colors = matplotlib.colormaps[CMAP](np.arange(256), bytes=True)[:, :3]
         with Image.open(self.folder / name) as image:
-            grey = image.convert("L")
-        if self.width:
-            return self.encode(Image.fromarray(colors[np.asarray(grey)]), lossless=False)
-        grey.putpalette(colors.tobytes())
+            grey = self.shrunk(image.convert("L"))
+        grey.putpalette(matplotlib.colormaps[CMAP](np.arange(256), bytes=True)[:, :3].tobytes())
         return self.encode(grey, lossless=True)
 
-    def encode(self, image, lossless):
+    def shrunk(self, image):
+        if not self.width or image.width <= self.width:
+            return image
+        return image.resize((self.width, round(image.height * self.width / image.width)), Image.Resampling.BOX)
+
+    @staticmethod
+    def encode(image, lossless):
         out = io.BytesIO()
-        if lossless:
-            image.save(out, "png", optimize=True)
-            return data_uri(out.getvalue(), "png")
-        if image.width > self.width:
-            image = image.resize((self.width, round(image.height * self.width / image.width)), Image.Resampling.BOX)
-        image.save(out, "webp", quality=80, method=6)
+        image.save(out, "webp", lossless=lossless, quality=30 if lossless else 80, method=4)
         return data_uri(out.getvalue(), "webp")
 
     def hard_regions(self, problem):
-        """Where each technique alone and `power` err most: (name, center x, center y) as fractions of the image."""
+        """Where `power` and each technique alone err most: (name, center x, center y) as fractions of the image."""
         regions = []
-        for integrator in problem["integrators"]:
+        for integrator in sorted(problem["integrators"], key=lambda integrator: integrator["name"] != "power"):
             if integrator["error_image"] and (integrator["model"] == "alone" or integrator["name"] == "power"):
                 with Image.open(self.folder / integrator["error_image"]) as image:
                     errors = 10 ** (self.decades * np.asarray(image.convert("L"), dtype=float) / 255)
@@ -70,11 +67,11 @@ def worst_region(errors):
 
 def color_bar(scale):
     """What the false colors mean."""
-    figure, axes = plt.subplots(figsize=(3.4, 0.5))
-    figure.subplots_adjust(left=0.07, right=0.93, bottom=0.6, top=1)
+    figure, axes = plt.subplots(figsize=(2.4, 0.42))
+    figure.subplots_adjust(left=0.09, right=0.88, bottom=0.6, top=1)
     norm = LogNorm(scale["low"], scale["high"])
     bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, CMAP), cax=axes, orientation="horizontal")
-    bar.ax.xaxis.set_major_formatter(lambda error, position: percent(error))
+    bar.ax.xaxis.set_major_formatter(lambda error, position: f"{100 * error:,g} %")
     bar.ax.minorticks_off()
     bar.outline.set_visible(False)
     return picture(figure)

@@ -10,7 +10,7 @@ from figures import QUIET, picture
 from formats import decimals, figure as significant, power_of_ten
 
 KEYS = ("cpu_seconds", "relative_rmse", "relative_rmse_low", "relative_rmse_high")
-SIZE = (5.2, 3.7)  # inches of 96 pixels
+SIZE = (4.3, 3.4)  # inches of 96 pixels
 
 
 def plot(problem):

@@ -41,8 +41,9 @@ def page(results, folder, results_name, image_width):
                formats.count, formats.compact, figures.marker_points, findings.level)
     environment.filters |= {function.__name__: function for function in filters}
     environment.tests["endless"] = math.isinf
+    known = {name: results[name] for name in ("machine", "build", "settings", "rules", "problems", "stiff", "stability")}
     return environment.get_template("page.html.jinja").render(
-        **results, groups=grouped(results["problems"]), overview=overview, totals=findings.totals(overview),
+        **known, groups=grouped(results["problems"]), overview=overview, totals=findings.totals(overview),
         combined=findings.COMBINED, pictures=pictures, plot=plot, region=REGION, results_name=results_name,
         color_bar=color_bar(scale) if scale else None, heat_maps=heat_maps(results["stiff"]) if results["stiff"] else [])
 
@@ -65,5 +66,5 @@ def main():
 if __name__ == "__main__":
     try:
         main()
-    except OSError as error:
-        sys.exit(f"report: {error.filename}: {error.strerror}")
+    except OSError as error:  # of images that are none, too
+        sys.exit(f"report: {error}")

@@ -18,8 +18,9 @@ def heat_maps(stiff):
     maps = []
     for integrator in stiff["integrators"]:
         errors = np.array(integrator["relative_error"], dtype=float)
-        maps.append({"name": integrator["name"], "worst": float(np.nanmax(errors)), "picture": heat_map(errors, stiff)})
-    return sorted(maps, key=lambda one: one["worst"])
+        worst = max(errors[np.isfinite(errors)], default=None)
+        maps.append({"name": integrator["name"], "worst": worst, "picture": heat_map(errors, stiff)})
+    return sorted(maps, key=lambda one: (one["worst"] is None, one["worst"]))
 
 
 def heat_map(errors, stiff):
