@@ -5,7 +5,6 @@
 """
 
 import argparse
-import copy
 import json
 import os
 import subprocess
@@ -148,6 +147,34 @@ def draw(folder, name, results, stability=None):
     return folder / name / "index.html", outcome
 
 
+def without_time(results, folder):
+    del results["problems"][0]["integrators"][0]["points"][0]["cpu_seconds"]
+    return results
+
+
+def with_unknown_reference(results, folder):
+    results["problems"][0]["reference"]["relative_mse"] = None
+    return results
+
+
+def with_broken_image(results, folder):
+    (folder / "power.png").write_bytes(b"no image")
+    return results
+
+
+def with_image_elsewhere(results, folder):
+    results["problems"][1]["integrators"][0]["image"] = "../example/index.html"
+    return results
+
+
+REFUSED = {  # how results are spoilt, and what has to be said about it
+    "a missing time": (without_time, "problems[0].integrators[0].points[0].cpu_seconds is missing"),
+    "a reference without an error": (with_unknown_reference, "problems[0].reference.relative_mse is null"),
+    "a broken image": (with_broken_image, "power.png"),
+    "an image elsewhere": (with_image_elsewhere, "'../example/index.html' is not in the folder"),
+}
+
+
 def made_up_pages(folder):
     """Pages, and what went wrong on the way to them."""
     wrong, pages = [], []
@@ -155,11 +182,10 @@ def made_up_pages(folder):
                           draw(folder, "whole", made_up_results.whole, made_up_results.stability())):
         pages.append(page)
         wrong += [f"{page}: {outcome.stderr}"] if outcome.returncode else []
-    refused = copy.deepcopy(made_up_results.example())
-    del refused["problems"][0]["integrators"][0]["points"][0]["cpu_seconds"]
-    outcome = draw(folder, "refused", refused)[1]
-    if outcome.returncode == 0 or "problems[0].integrators[0].points[0].cpu_seconds is missing" not in outcome.stderr:
-        wrong.append(f"what is missing is not named: {outcome.stderr}")
+    for name, (spoil, message) in REFUSED.items():
+        outcome = draw(folder, "refused", lambda folder: spoil(made_up_results.whole(folder), folder))[1]
+        if outcome.returncode == 0 or message not in outcome.stderr or "Traceback" in outcome.stderr:
+            wrong.append(f"{name} is not refused by name: {outcome.stderr}")
     return pages, wrong
 
 
