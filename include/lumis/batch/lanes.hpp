@@ -85,6 +85,7 @@ class Lanes {
 
     [[gnu::always_inline]] void store(T* to) const noexcept { std::memcpy(to, &v_, sizeof(Vector)); }
 
+    [[nodiscard, gnu::always_inline]] Vector vector() const noexcept { return v_; }
     [[nodiscard, gnu::always_inline]] T operator[](std::size_t i) const noexcept { return v_[i]; }
     [[gnu::always_inline]] void set(std::size_t i, T x) noexcept { v_[i] = x; }
 

@@ -1,11 +1,25 @@
-// What kernels ask of a number. A kernel is written once, for a Real: a floating-point type for the single call, or
-// several lanes of one (see batch/lanes.hpp). Where lanes may differ, a kernel selects instead of branching.
+// The arithmetic that kernels are written in. A kernel is written once, for a Real: a floating-point type for the single
+// call, or several lanes of one (see batch/lanes.hpp). Where lanes may differ, a kernel selects instead of branching.
 //
-// What makes a strategy or samples it is inlined by decree (gnu::always_inline). Compilers do not by themselves, and hand
-// vectors over in memory, written in parts and read as a whole: a processor then waits until all that came before is done,
-// table look-ups too.
+// A kernel keeps two rules, so that a host may trap floating-point exceptions and may compile with -ffast-math:
+// 1. It never divides 0 by 0, a number by 0, or takes the root of a negative number, not even to discard the result.
+//    It divides by divisor_where(condition, x) or calls quotient_where; roots that rounding can make negative are
+//    sqrt_or_zero.
+// 2. A difference or sum whose rounding matters is rounded(a - b). Otherwise -fassociative-math may rewrite it together
+//    with what it enters, and the digits that the difference was formed to keep are lost.
+//
+// Constructors and sample functions of strategies are forced inline (gnu::always_inline). Otherwise compilers pass vectors
+// through memory: they are stored by component and loaded whole, and such a load waits until all stores before it are
+// done (no store forwarding).
 #pragma once
 
+// -ffinite-math-only, which -ffast-math implies, lets a compiler assume that no NaN or infinity occurs.
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ && !defined(LUMIS_ALLOW_FINITE_MATH_ONLY)
+#pragma GCC warning \
+    "Lumis cannot detect NaN and infinity under -ffinite-math-only (-ffast-math): add -fno-finite-math-only, or define LUMIS_ALLOW_FINITE_MATH_ONLY to accept that"
+#endif
+
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <cmath>
@@ -29,6 +43,34 @@ template <class R>
 struct ScalarOf<R> {
     using type = typename R::Lane;
 };
+
+// A barrier against re-association, for a number or a compiler vector of them. Both compilers' built-in functions are
+// nothing without -fassociative-math, but g++'s keeps multiplications and additions from being fused all the same: it is
+// left out where the flags make arithmetic IEEE 754's.
+template <class V>
+[[nodiscard, gnu::always_inline]] constexpr V rounded(V x) noexcept {
+#if defined(__clang__) && __has_builtin(__arithmetic_fence)
+    if (!std::is_constant_evaluated()) return __arithmetic_fence(x);
+#elif defined(__GNUC__) && __GNUC__ >= 12 && __GCC_IEC_559 == 0
+    if (!std::is_constant_evaluated()) return __builtin_assoc_barrier(x);
+#endif
+    return x;
+}
+
+// x, of which the compiler is to know nothing more.
+template <std::floating_point T>
+[[nodiscard, gnu::always_inline]] constexpr T opaque(T x) noexcept {
+    if (!std::is_constant_evaluated()) {
+#ifdef __SSE2__
+        asm("" : "+x"(x));
+#elif defined(__aarch64__)
+        asm("" : "+w"(x));
+#elif defined(__GNUC__)
+        asm("" : "+m"(x));
+#endif
+    }
+    return x;
+}
 
 }  // namespace detail
 
@@ -73,6 +115,26 @@ template <Real R>
     return sqrt(R(v.x * v.x + v.y * v.y + v.z * v.z));
 }
 
+// x as rounded, fl(x) in Higham's notation: no expression that uses it is re-associated with the one that formed it.
+// Does nothing unless the compiler has leave to re-associate (-fassociative-math, which -ffast-math implies).
+// g++ < 12 has no such barrier.
+template <Real R>
+[[nodiscard, gnu::always_inline]] constexpr R rounded(R x) noexcept {
+    if constexpr (std::floating_point<R>) {
+        return detail::rounded(x);
+    } else {
+        return R{detail::rounded(x.vector())};
+    }
+}
+template <Real R>
+[[nodiscard, gnu::always_inline]] constexpr glm::vec<2, R> rounded(const glm::vec<2, R>& v) noexcept {
+    return {rounded(v.x), rounded(v.y)};
+}
+template <Real R>
+[[nodiscard, gnu::always_inline]] constexpr glm::vec<3, R> rounded(const glm::vec<3, R>& v) noexcept {
+    return {rounded(v.x), rounded(v.y), rounded(v.z)};
+}
+
 template <Real R>
 [[nodiscard]] R abs(R x) noexcept {
     using std::abs;
@@ -109,6 +171,36 @@ template <Real R>
 [[nodiscard]] constexpr glm::vec<3, R> select(const MaskOf<R>& condition, const glm::vec<3, R>& a,
                                               const glm::vec<3, R>& b) noexcept {
     return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z)};
+}
+
+// x where the condition holds, so that a number may be divided by it without a floating-point exception; else a number
+// other than 0 or, for lanes, anything. What is formed with it is then to be discarded by a select.
+// Compilers turn a / select(condition, x, 1) into select(condition, a / x, a), which divides by x after all; here they
+// cannot.
+template <Real R>
+[[nodiscard, gnu::always_inline]] constexpr R divisor_where(const MaskOf<R>& condition, R x) noexcept {
+    if constexpr (std::floating_point<R>) {
+        return detail::opaque(condition ? x : R(1));
+    } else {
+        return x;
+    }
+}
+
+// a / b where the condition holds, else 0. Raises no exception for any finite a where the condition fails.
+template <Real R>
+[[nodiscard, gnu::always_inline]] constexpr R quotient_where(const MaskOf<R>& condition, R a,
+                                                             std::type_identity_t<R> b) noexcept {
+    return select(condition, R(a / divisor_where(condition, b)), 0);
+}
+
+// sqrt(x), and 0 for a negative x, without a floating-point exception.
+template <Real R>
+[[nodiscard, gnu::always_inline]] inline R sqrt_or_zero(R x) noexcept {
+    if constexpr (std::floating_point<R>) {
+        return sqrt(detail::opaque(x > 0 ? x : R(0)));
+    } else {
+        return sqrt(select(x > 0, x, 0));
+    }
 }
 
 // a() where the condition holds, else b(); a number asks for just one of them.
