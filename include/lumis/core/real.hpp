@@ -3,8 +3,8 @@
 //
 // A kernel keeps two rules, so that a host may trap floating-point exceptions and may compile with -ffast-math:
 // 1. It never divides 0 by 0, a number by 0, or takes the root of a negative number, not even to discard the result.
-//    It divides by divisor_where(condition, x) or calls quotient_where; roots that rounding can make negative are
-//    sqrt_or_zero.
+//    Divisions are divide or quotient_where, divisors that may be 0 are divisor_where, and roots that rounding can make
+//    negative are sqrt_or_zero.
 // 2. A difference or sum whose rounding matters is rounded(a - b). Otherwise -fassociative-math may rewrite it together
 //    with what it enters, and the digits that the difference was formed to keep are lost.
 //
@@ -136,7 +136,10 @@ template <Real R>
 }
 
 template <Real R>
-[[nodiscard]] R abs(R x) noexcept {
+[[nodiscard]] constexpr R abs(R x) noexcept {
+    if constexpr (std::floating_point<R>) {
+        if (std::is_constant_evaluated()) return x < 0 ? -x : x;  // std::abs is not for constants before C++23
+    }
     using std::abs;
     return abs(x);
 }
@@ -173,24 +176,47 @@ template <Real R>
     return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z)};
 }
 
-// x where the condition holds, so that a number may be divided by it without a floating-point exception; else a number
-// other than 0 or, for lanes, anything. What is formed with it is then to be discarded by a select.
-// Compilers turn a / select(condition, x, 1) into select(condition, a / x, a), which divides by x after all; here they
-// cannot.
+// a / b. clang++ would gather several divisions of numbers into one of a vector, unused lanes of which divide 0 by 0 and
+// so raise FE_INVALID.
+template <Real R>
+[[nodiscard, gnu::always_inline]] constexpr R divide(R a, std::type_identity_t<R> b) noexcept {
+#ifdef __clang__
+    if constexpr (std::floating_point<R>) return detail::opaque(a / detail::opaque(b));
+#endif
+    return a / b;
+}
+template <Real R>
+[[nodiscard, gnu::always_inline]] constexpr glm::vec<2, R> divide(const glm::vec<2, R>& a,
+                                                                  std::type_identity_t<R> b) noexcept {
+    return {divide(a.x, b), divide(a.y, b)};
+}
+template <Real R>
+[[nodiscard, gnu::always_inline]] constexpr glm::vec<3, R> divide(const glm::vec<3, R>& a,
+                                                                  std::type_identity_t<R> b) noexcept {
+    return {divide(a.x, b), divide(a.y, b), divide(a.z, b)};
+}
+
+// x where the condition holds, else 1: a divisor that raises no floating-point exception where x would.
+// Compilers turn a / select(condition, x, 1) into select(condition, a / x, a), which divides by x after all; a number is
+// hidden from them, so that they cannot.
 template <Real R>
 [[nodiscard, gnu::always_inline]] constexpr R divisor_where(const MaskOf<R>& condition, R x) noexcept {
     if constexpr (std::floating_point<R>) {
         return detail::opaque(condition ? x : R(1));
     } else {
-        return x;
+        return R::select(condition, x, R(scalar_of<R>(1)));
     }
 }
 
-// a / b where the condition holds, else 0. Raises no exception for any finite a where the condition fails.
+// a / b where the condition holds, else 0: for a number without a floating-point exception, if a is finite.
 template <Real R>
 [[nodiscard, gnu::always_inline]] constexpr R quotient_where(const MaskOf<R>& condition, R a,
                                                              std::type_identity_t<R> b) noexcept {
-    return select(condition, R(a / divisor_where(condition, b)), 0);
+    if constexpr (std::floating_point<R>) {
+        return condition ? divide(a, divisor_where(condition, b)) : R(0);
+    } else {
+        return R::select(condition, a / b, R(scalar_of<R>(0)));
+    }
 }
 
 // sqrt(x), and 0 for a negative x, without a floating-point exception.
