@@ -100,12 +100,13 @@ template <Real R>
     const R large = real::max(real::max(ay, ax), std::numeric_limits<T>::min()) + 0 * ax;
     R octant;
     if constexpr (std::same_as<T, float>) {
-        const R t = small / large;
+        const R t = real::divide(small, large);
         octant = t * detail::polynomial(R(t * t), detail::Minimax<T>::arc_tangent);
     } else {
         // Beyond pi / 8 counted from pi / 4, which spares as many terms again.
         const auto beyond = small > T(0.41421356237309505) * large;
-        const R t = real::select(beyond, small - large, small) / real::select(beyond, small + large, large);
+        const R t =
+            real::divide(real::select(beyond, small - large, small), real::select(beyond, small + large, large));
         octant = real::mul_add(t, detail::polynomial(R(t * t), detail::Minimax<T>::arc_tangent),
                                real::select(beyond, R(T(0.125)), 0));
     }

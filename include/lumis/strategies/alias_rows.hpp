@@ -58,7 +58,7 @@ class AliasRows {
         const std::uint32_t larger = remainder - place * entries_ < larger_bins_;
         const std::uint32_t begin = is_own ? 0 : own, end = is_own ? own : capacity_ + larger;
         return {drawn, is_own && light ? own : heavy_counts,
-                (static_cast<T>(place - begin) + within) / static_cast<T>(end - begin)};
+                real::divide(static_cast<T>(place - begin) + within, static_cast<T>(end - begin))};
     }
 
     // The number of counts of an entry.

@@ -66,7 +66,7 @@ class GuidedRows {
         }
         while (starts[entry + 1].value <= count) ++entry;
         const std::uint32_t start = starts[entry].value, counts = starts[entry + 1].value - start;
-        return {entry, counts, (static_cast<T>(count - start) + within) / static_cast<T>(counts)};
+        return {entry, counts, real::divide(static_cast<T>(count - start) + within, static_cast<T>(counts))};
     }
 
     // The number of counts of an entry.
