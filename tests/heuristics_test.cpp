@@ -26,6 +26,17 @@ const std::tuple heuristics{lumis::BalanceHeuristic{},   lumis::PowerHeuristic{}
                             lumis::PowerHeuristic{5},    lumis::MaximumHeuristic{}, lumis::CutoffHeuristic{},
                             lumis::CutoffHeuristic{0.5}, lumis::EqualWeights{}};
 
+// By how much the weights of three densities may change when all are scaled by a power of two. Not at all, unless the
+// compiler fuses products into sums: it may do so in the short way but not in the scaled one. Either is then within five
+// roundings of the exact weight: one of the square, three of the sum, one of the quotient.
+#ifdef __FMA__
+template <class T>
+constexpr T by_fusing = 5 * epsilon<T>;
+#else
+template <class T>
+constexpr T by_fusing = 0;
+#endif
+
 template <class Check>
 void for_each_heuristic(Check check) {
     std::apply([&](const auto&... heuristic) { (check(heuristic), ...); }, heuristics);
@@ -116,7 +127,8 @@ TEMPLATE_TEST_CASE("weights do not change with the scale of the densities", "[he
             for (const int exponent : {-100, 100}) {
                 auto scaled = p;
                 for (T& density : scaled) density = std::ldexp(density, exponent);
-                REQUIRE(weights(heuristic, scaled) == w);
+                const auto v = weights(heuristic, scaled);
+                for (std::size_t i = 0; i < p.size(); ++i) REQUIRE(std::abs(v[i] - w[i]) <= by_fusing<T> * w[i]);
             }
             for (const T factor : {T(1e-30), T(1e30)}) {
                 auto scaled = p;

@@ -22,7 +22,7 @@ namespace lumis {
 
 namespace detail {
 
-// Unrolled where the number of techniques is known when compiled.
+// Calls visit(density) for each. The loop is unrolled where the number of techniques is known at compile time.
 template <Real R, std::size_t N, class Visit>
 [[gnu::always_inline]] inline void for_each_density(std::span<const R, N> densities, Visit visit) noexcept {
     if constexpr (N == std::dynamic_extent) {
@@ -32,7 +32,8 @@ template <Real R, std::size_t N, class Visit>
     }
 }
 
-// A copy for functions that are not inlined, or else the densities would have to be in memory at all times.
+// The densities as an array of their own, for functions that are not inlined: a span of them would force the caller to
+// keep its densities in memory instead of registers. Densities of an extent known only at run time stay where they are.
 template <std::floating_point T, std::size_t N>
 [[nodiscard, gnu::always_inline]] inline auto by_value(std::span<const T, N> densities) noexcept {
     if constexpr (N == std::dynamic_extent) {
@@ -51,18 +52,27 @@ template <Real R, std::size_t N>
     return largest;
 }
 
-// The sum of term(density). Of very many, what each addition rounds off is added up by itself (Ogita, Rump and Oishi 2005,
-// "Accurate Sum and Dot Product"): no addition waits for it, as in Kahan's sum.
+// Sums above this count as overflowed. Comparisons with the largest number itself are left out by compilers that need not
+// reckon with infinity (-ffinite-math-only).
+template <std::floating_point T>
+inline constexpr T largest_sum = std::numeric_limits<T>::max() / 2;
+
+// The sum of term(density). Sums of more than 8 terms are compensated by Sum2 of Ogita, Rump and Oishi 2005, "Accurate Sum
+// and Dot Product", algorithm 4.1: what each addition rounds off is added up separately. Unlike in Kahan's sum, no addition
+// waits for what the one before it rounded off. Stops at the first partial sum that has overflowed, and returns that.
 template <Real R, std::size_t N, class Term>
 [[nodiscard, gnu::always_inline]] inline R sum_of(std::span<const R, N> densities, Term term) noexcept {
-    R sum = -scalar_of<R>(0);  // to which a compiler may add by doing nothing, unlike to 0
+    R sum = -scalar_of<R>(0);  // adding to -0 changes no number, so compilers drop the addition; adding to 0 changes -0
     if (N != std::dynamic_extent || densities.size() <= 8) {
         for_each_density(densities, [&](R density) { sum += term(density); });
     } else {
         R rounded_off = scalar_of<R>(0);
         for (const R density : densities) {
-            const R next = term(density), total = sum + next, added = total - sum;
-            rounded_off += (sum - (total - added)) + (next - added);
+            // Knuth's TwoSum: total + error == sum + next exactly.
+            const R next = term(density), total = real::rounded(R(sum + next)), added = real::rounded(R(total - sum));
+            if (!real::all(total <= largest_sum<scalar_of<R>>)) return total;
+            const R kept = real::rounded(R(total - added));
+            rounded_off += real::rounded(R(sum - kept)) + real::rounded(R(next - added));
             sum = total;
         }
         sum += rounded_off;
@@ -70,8 +80,17 @@ template <Real R, std::size_t N, class Term>
     return sum;
 }
 
-// The share of technique `own` in the sum of all: share(p, scale) is that of a density p, scaled by a power of two. The
-// densities may be any: the policy above decides on NaN and Inf, and the scale brings the largest of the others near 1.
+// The power of two that brings a positive number near 1, or as near as a normal power of two can.
+template <std::floating_point T>
+[[nodiscard]] T scale_to_one(T x) noexcept {
+    constexpr int limit = std::numeric_limits<T>::max_exponent - 2;  // 2^limit and 2^-limit are both normal numbers
+    const int exponent = std::ilogb(x);
+    return std::ldexp(T(1), exponent < -limit ? limit : exponent > limit ? -limit : -exponent);
+}
+
+// The share of technique `own` in the sum of all, for densities of any kind: NaN and Inf are decided by the policy at the
+// top of this file. share(p, scale) is the share of a density p after scaling; the scale is a power of two that brings the
+// largest density near 1, so that neither squares nor sums overflow.
 template <std::floating_point T, class Densities, class Share>
 [[nodiscard, gnu::noinline, gnu::cold]] T weight_at_scale(std::size_t own, Densities densities, Share share) noexcept {
     int infinite = 0;
@@ -83,15 +102,13 @@ template <std::floating_point T, class Densities, class Share>
     if (infinite > 0) return std::isinf(densities[own]) ? T(1) / static_cast<T>(infinite) : T(0);
     const T largest = real::largest_of(densities);
     if (!(largest > 0)) return 0;
-    constexpr int limit = std::numeric_limits<T>::max_exponent - 2;  // of a power of two and of its reciprocal
-    const int exponent = std::ilogb(largest);
-    const T scale = std::ldexp(T(1), exponent < -limit ? limit : exponent > limit ? -limit : -exponent);
+    const T scale = scale_to_one(largest);
     const T sum = sum_of(std::span{std::as_const(densities)}, [&](T density) { return share(density, scale); });
-    const T weight = share(densities[own], scale) / sum;
+    const T weight = real::divide(share(densities[own], scale), sum);
     return weight > 0 ? weight : T(0);
 }
 
-// What a heuristic says of each lane by itself.
+// The weights of lanes by the heuristic for numbers, one lane after the other.
 template <Real R, std::size_t N, class Heuristic>
 [[nodiscard, gnu::noinline]] R weight_lane_by_lane(const Heuristic& heuristic, std::size_t own,
                                                    std::span<const R, N> densities) noexcept {
@@ -105,16 +122,16 @@ template <Real R, std::size_t N, class Heuristic>
     return weights;
 }
 
-// The same for densities as they are nearly always. A share that is too small to have all its digits, a sum that is not
-// finite, a NaN anywhere: each fails one of two comparisons.
+// The share of technique `own` in the sum of all. Two comparisons find densities that need scaling or the policy: a share
+// too small to have all its digits, a sum that has overflowed or holds an Inf or a NaN. All others take the short way.
 template <Real R, std::size_t N, class Heuristic, class Share>
 [[nodiscard, gnu::always_inline]] inline R weight_by_shares(const Heuristic& heuristic, std::size_t own,
                                                             std::span<const R, N> densities, Share share) noexcept {
     using T = scalar_of<R>;
     const R sum = sum_of(densities, [&](R density) { return share(density, T(1)); });
-    const R own_share = share(densities[own], T(1)), weight = own_share / sum;
-    if (real::all(own_share >= std::numeric_limits<T>::min() && weight > 0)) [[likely]]
-        return weight;
+    const R own_share = share(densities[own], T(1));
+    if (real::all(own_share >= std::numeric_limits<T>::min() && sum <= largest_sum<T>)) [[likely]]
+        return real::divide(own_share, sum);
     if constexpr (std::floating_point<R>) {
         return weight_at_scale<T>(own, by_value(densities), share);
     } else {
@@ -122,19 +139,24 @@ template <Real R, std::size_t N, class Heuristic, class Share>
     }
 }
 
-// The power heuristic for any exponent. Powers soon leave the range: those of ratios do so where the weight does.
+// The power heuristic for any exponent, 1 / sum (p_i / p_own)^exponent. Powers of the densities themselves leave the range
+// of T soon; powers of their ratios leave it only where the weight does.
 template <std::floating_point T, class Densities>
 [[nodiscard, gnu::noinline]] T weight_by_power(std::size_t own, Densities densities, T exponent) noexcept {
-    T sum = 0;
-    for (const T density : densities) {
-        const T ratio = density / densities[own];
-        sum += ratio > 0 ? std::pow(ratio, exponent) : ratio;  // pow(0, 0) is 1
+    if (densities[own] > 0 && densities[own] <= std::numeric_limits<T>::max()) {
+        // Scaled, so that 1 / p_own, which -freciprocal-math may form, is a normal number.
+        const T scale = scale_to_one(densities[own]), p_own = real::rounded(scale * densities[own]);
+        T sum = 1;
+        for (std::size_t i = 0; i < densities.size(); ++i) {
+            const T ratio = real::divide(real::rounded(scale * densities[i]), p_own);
+            if (i != own) sum += ratio > 0 ? std::pow(ratio, exponent) : ratio;  // pow(0, 0) is 1
+        }
+        if (sum >= 1) return real::divide(T(1), sum);
     }
-    if (densities[own] > 0 && sum >= 1) return 1 / sum;
     return weight_at_scale<T>(own, densities, [](T p, T scale) { return p * scale; });
 }
 
-// 1 for a positive density; Inf stays, for the policy to decide.
+// 1 for a positive finite density. 0 and Inf stay as they are: the policy decides on Inf.
 template <Real R>
 [[nodiscard]] R one_if_positive(R p) noexcept {
     return real::select(p > 0 && p <= std::numeric_limits<R>::max(), R(scalar_of<R>(1)), p);
@@ -144,7 +166,7 @@ template <Real R>
 
 // Weights in proportion to the densities: no other heuristic's variance is much lower (Veach 1997, theorem 9.2).
 struct BalanceHeuristic {
-    // Gives no weight of 0 to what was drawn, unless it underflows: estimators need not ask.
+    // A technique that can draw the point gets a positive weight, unless it underflows: estimators need not compare it to 0.
     static constexpr bool is_positive = true;
 
     template <Real R, std::size_t N>
@@ -156,7 +178,7 @@ struct BalanceHeuristic {
 // Weights in proportion to the densities to the power of beta, 1 or more: sharper, better where one technique is nearly
 // perfect.
 struct PowerHeuristic {
-    static constexpr bool is_positive = true;  // as of BalanceHeuristic
+    static constexpr bool is_positive = true;  // see BalanceHeuristic
 
     double beta = 2;
 
@@ -164,8 +186,10 @@ struct PowerHeuristic {
     [[nodiscard]] R operator()(std::size_t own, std::span<const R, N> densities) const noexcept {
         using T = scalar_of<R>;
         if (beta == 2) [[likely]]
-            return detail::weight_by_shares(*this, own, densities,
-                                            [](R p, T scale) { return R(p * scale * (p * scale)); });
+            return detail::weight_by_shares(*this, own, densities, [](R p, T scale) {
+                const R scaled = real::rounded(R(p * scale));  // p * p may overflow
+                return R(scaled * scaled);
+            });
         if constexpr (std::floating_point<R>) {
             return detail::weight_by_power<T>(own, detail::by_value(densities), static_cast<T>(beta));
         } else {
@@ -224,7 +248,7 @@ PartitionWeights(Owner) -> PartitionWeights<Owner>;
 
 namespace detail {
 
-// A heuristic is told how many densities there are when compiled, if it can be.
+// Calls a heuristic with the number of densities known at compile time, if it accepts such a span.
 template <class H, Real R, std::size_t N>
 [[nodiscard, gnu::always_inline]] inline R weigh(const H& heuristic, std::size_t own,
                                                  std::span<const R, N> densities) noexcept {
