@@ -1,7 +1,7 @@
 // Many samples at once. A strategy's own kernel is run on lanes of numbers (see lanes.hpp); one that is written for single
 // numbers only, as a user's own may be, is called for each. Nothing is allocated, and no thread is started.
 //
-// Spans of a call have one size; they may not overlap, but for being the same. What is written for an element depends on
+// Spans of a call have one size. They may not overlap, except that an output may be the very span of an input. What is written for an element depends on
 // nothing but that element, wherever in a batch it stands, and agrees with the single call to a few units in the last place:
 // compilers fuse multiplications and additions differently.
 #pragma once
@@ -92,7 +92,8 @@ void sample_n(const S& strategy, std::type_identity_t<UniformSpans<T>> u, std::t
     const std::size_t count = out.pdf.size();
     LUMIS_ASSERT(u.x.size() == count && u.y.size() == count);
     LUMIS_ASSERT(out.x.size() == count && out.y.size() == count && out.z.size() == count);
-    // A copy if it is small, lest every store be taken for one to its members.
+    // Small strategies are copied: otherwise the compiler must assume that each store to `out` changes their members, and
+    // loads them again.
     Held<const S&> held = strategy;
     if constexpr (detail::SamplesLanes<S, L>) {
         detail::for_each_chunk<L>(count, [&](auto load, auto store) {
@@ -123,7 +124,7 @@ void pdf_n(const S& strategy, std::type_identity_t<std::span<const T>> x, std::t
 }
 
 // weights[i] is the weight of technique `own` where the techniques have effective densities densities[0][i], densities[1][i],
-// and so on. One of Veach's heuristics; where a PointHeuristic is meant, its owner is known without.
+// and so on. The heuristic weighs by densities; a PointHeuristic needs none, its owner(x) is the answer.
 template <class H, std::floating_point T, std::size_t N>
 void mis_weight_n(const H& heuristic, std::size_t own, const std::array<std::span<const T>, N>& densities,
                   std::type_identity_t<std::span<T>> weights) {
@@ -136,7 +137,7 @@ void mis_weight_n(const H& heuristic, std::size_t own, const std::array<std::spa
     });
 }
 
-// Of the technique that drew the samples against the one other there is.
+// The weight of the technique that drew the samples, with densities `own`, against one other technique.
 template <class H, std::floating_point T>
 void mis_weight_n(const H& heuristic, std::type_identity_t<std::span<const T>> own,
                   std::type_identity_t<std::span<const T>> other, std::span<T> weights) {

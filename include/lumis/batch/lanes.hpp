@@ -127,8 +127,8 @@ class Lanes {
         return BitVector{} + std::numeric_limits<Bits>::min();
     }
 
-    // The compilers have no common way to say this, and none turns a loop of square roots into one instruction while
-    // errno may be asked for.
+    // By the processor's instructions. The compilers share no built-in function for roots of vectors, and neither makes one
+    // instruction of a loop over std::sqrt, which may set errno.
     [[gnu::always_inline]] static Vector square_roots(Vector x) noexcept {
 #ifdef __SSE2__
         if constexpr (std::same_as<T, float> && sizeof(Vector) == 16) return __builtin_ia32_sqrtps(x);

@@ -19,7 +19,7 @@ template <std::floating_point T>
     const T a = real::min(real::min(alpha.x, alpha.y), T(1));
     const T s = 1 + real::sqrt(wo.x * wo.x + wo.y * wo.y);
     const T a2 = a * a, s2 = s * s, z2 = wo.z * wo.z;
-    return a2 * (s2 + z2) / (s2 + a2 * z2);
+    return real::divide(a2 * (s2 + z2), s2 + a2 * z2);
 }
 
 // A density of the normals that reflect above the horizon; of others it knows nothing.

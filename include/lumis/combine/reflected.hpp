@@ -4,8 +4,6 @@
 
 #include "lumis/core/strategy.hpp"
 
-#include <glm/geometric.hpp>
-
 namespace lumis {
 
 template <Strategy Normals>
@@ -29,16 +27,19 @@ class Reflected {
     template <RealOf<Scalar> R = Scalar>
     [[nodiscard, gnu::always_inline]] Sample<Direction<R>, R> sample(glm::vec<dimensions, R> u) const noexcept {
         const Direction<R> wm = normal(u), wo{wo_};
-        // Divided by wm's own length, whether it is a unit vector or not: else its rounding would lengthen wi, by up to
-        // five units in the last place.
-        const R square = glm::dot(wm, wm);
-        Sample<Direction<R>, R> drawn{real::select(square > 0, 2 * glm::dot(wo, wm) / square, 0) * wm - wo};
+        // Divides by wm's own length, even if it is meant to be 1: otherwise its rounding would lengthen wi by up to five
+        // units in the last place. The result is kept as rounded: wo + wi, from which pdf starts, is another vector than
+        // the one that was subtracted from.
+        const R square = real::dot(wm, wm);
+        Sample<Direction<R>, R> drawn{
+            real::rounded(real::quotient_where(square > 0, R(2 * real::dot(wo, wm)), square) * wm - wo)};
         drawn.pdf = pdf(drawn.value);
         return drawn;
     }
 
-    // wo + wi is 2 (wo.wm) wm: its length is the Jacobian's cosine without the cancellation of a dot product, of which
-    // grazing directions leave no digit. Normals whose density has that cosine as a factor say so, and it is never formed.
+    // wo + wi is 2 (wo.wm) wm. Its length gives the Jacobian's cosine, wo.wm, without the cancellation of a dot product,
+    // which leaves no digit at grazing incidence. Normals whose density has wo.wm as a factor offer pdf_per_cosine, the
+    // density without it; then wo.wm is never formed.
     template <RealOf<Scalar> R = Scalar>
     [[nodiscard]] R pdf(const Direction<R>& wi) const noexcept {
         const Direction<R> half = Direction<R>(wo_) + wi;
@@ -47,20 +48,21 @@ class Reflected {
             density = normals_.pdf_per_cosine(half) / 4;
         } else {
             const R length = real::length(half);
-            density = normals_.pdf(Direction<R>(half / length)) / (2 * length);
+            const R divisor = real::divisor_where(length > 0, length);  // 0 for wi == -wo
+            density = real::divide(normals_.pdf(real::divide(half, divisor)), 2 * divisor);
         }
         return density_or_zero(real::select(wi.z > 0 && wo_.z > 0, density, 0));
     }
 
     [[nodiscard]] UniformsOf<Normals> invert(const Point& wi) const noexcept requires InvertibleStrategy<Normals> {
         const Point half = wo_ + wi;
-        return normals_.invert(half / real::length(half));
+        return normals_.invert(real::divide(half, real::length(half)));
     }
 
     [[nodiscard]] const Normals& normals() const noexcept { return normals_; }
 
   private:
-    // A normal, if its length does not matter one of any length; 0 if none was drawn.
+    // A drawn normal, or 0 if none was drawn. It is of any length where the strategy can spare normalising it.
     template <Real R>
     [[nodiscard]] Direction<R> normal(glm::vec<dimensions, R> u) const noexcept {
         if constexpr (requires { normals_.along_normal(u); }) {

@@ -16,7 +16,7 @@ class Frame {
     // Any frame around a unit normal (Duff et al. 2017, "Building an Orthonormal Basis, Revisited", listing 3).
     [[gnu::always_inline]] explicit Frame(const Direction<T>& normal) noexcept : normal_{normal} {
         const T sign = std::copysign(T(1), normal.z);
-        const T a = T(-1) / (sign + normal.z);
+        const T a = real::divide(T(-1), sign + normal.z);
         const T b = normal.x * normal.y * a;
         tangent_ = {T(1) + sign * normal.x * normal.x * a, sign * b, -sign * normal.x};
         bitangent_ = {b, sign + normal.y * normal.y * a, -normal.y};

@@ -7,8 +7,8 @@
 
 namespace lumis {
 
-// (u, v) of a direction, of any length whose square is in range; both in [0, 1], and NaN for a NaN. acos(y) is had from
-// both sides of its angle: near the poles a float y has no digits left.
+// (u, v) of a direction, of any length whose square is in range; both in [0, 1], and NaN for a NaN. The angle to +y is the
+// arc tangent of sqrt(x^2 + z^2) over y, not acos(y): near the poles a float y has no digits left.
 template <Real R>
 [[nodiscard, gnu::always_inline]] inline glm::vec<2, R> latlong_from_direction(const Direction<R>& w) noexcept {
     const R u = scalar_of<R>(0.5) + signed_turn_of(w.x, w.z);

@@ -17,7 +17,8 @@ struct Counting {};    // of indices: the density is a probability
 // Yields 0 where no density can be formed: edge-on, at distance 0, for a surface without area.
 template <Real R>
 [[nodiscard]] R area_to_solid_angle(scalar_of<R> pdf_area, R distance, R cos_light) noexcept {
-    return density_or_zero(R(pdf_area * distance * distance / real::abs(cos_light)));
+    const R cosine = real::abs(cos_light);
+    return density_or_zero(real::quotient_where(cosine > 0, R(pdf_area * distance * distance), cosine));
 }
 
 }  // namespace lumis

@@ -93,10 +93,21 @@ using MaskOf = decltype(R{} < R{});
 
 namespace real {
 
-// Of a number by the machine's instruction: around that, std::sqrt has a comparison and a call for the sake of errno.
-// Without AVX, making a vector of the number costs as much.
+// The square root by the processor's instruction. std::sqrt compares its argument first, and calls a function that sets
+// errno if it is negative. Without AVX, the vector that the built-in function takes costs as much as that comparison.
 template <Real R>
 [[nodiscard, gnu::always_inline]] inline R sqrt(R x) noexcept {
+#if defined(__clang__) && defined(__SSE2__) && __FINITE_MATH_ONLY__
+    // clang++ would estimate the root of a float (rsqrtss), which costs up to two units in the last place.
+    if constexpr (std::same_as<R, float>) {
+#ifdef __AVX__
+        asm("vsqrtss %0, %0, %0" : "+x"(x));
+#else
+        asm("sqrtss %0, %0" : "+x"(x));
+#endif
+        return x;
+    }
+#endif
 #ifdef __AVX__
     if constexpr (std::same_as<R, float>) {
         using Vector [[gnu::vector_size(16)]] = float;
@@ -133,6 +144,13 @@ template <Real R>
 template <Real R>
 [[nodiscard, gnu::always_inline]] constexpr glm::vec<3, R> rounded(const glm::vec<3, R>& v) noexcept {
     return {rounded(v.x), rounded(v.y), rounded(v.z)};
+}
+
+// The dot product, summed in the order of its terms whatever the flags are: x and y first, which are the small ones where
+// both vectors are near +z.
+template <Real R>
+[[nodiscard, gnu::always_inline]] constexpr R dot(const glm::vec<3, R>& a, const glm::vec<3, R>& b) noexcept {
+    return rounded(R(a.x * b.x + a.y * b.y)) + a.z * b.z;
 }
 
 template <Real R>

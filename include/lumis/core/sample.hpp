@@ -30,26 +30,26 @@ struct LightSample {
     Scalar distance{};
 };
 
-// The policy for densities in one line: a positive finite number stays, everything else (NaN too) is "nothing drawn".
+// The policy for densities in one line: a positive finite number stays; anything else, NaN too, means "nothing drawn".
 template <Real R>
 [[nodiscard]] constexpr R density_or_zero(R pdf) noexcept {
     return real::select(pdf > 0 && pdf <= std::numeric_limits<R>::max(), pdf, 0);
 }
 
-// Whether a squared length has all its digits: then it is that of a vector which can be made a unit one.
+// Whether a squared length is a normal number, neither 0 nor subnormal nor infinite: then the vector can be normalised.
 template <Real R>
 [[nodiscard]] constexpr MaskOf<R> is_squared_length(R squared) noexcept {
     return squared >= std::numeric_limits<R>::min() && squared <= std::numeric_limits<R>::max();
 }
 
-// Whether no component is NaN or infinite.
+// Whether no component is NaN or infinite, nor so large that their sum is.
 template <Real R>
 [[nodiscard]] constexpr MaskOf<R> all_finite(const glm::vec<3, R>& v) noexcept {
-    const R none = (v.x - v.x) + (v.y - v.y) + (v.z - v.z);  // NaN if one of them is
-    return none <= 0;
+    return real::abs(v.x) + real::abs(v.y) + real::abs(v.z) <= std::numeric_limits<R>::max();
 }
 
-// A local direction above the horizon as it is, else the zero vector, which sees nothing; so for what is no direction.
+// A local direction above the horizon stays as it is. One below it, and what is no direction (NaN, or of a length whose
+// square is out of range), becomes the zero vector, from which nothing is drawn.
 template <std::floating_point T>
 [[nodiscard]] constexpr Direction<T> above_horizon_or_zero(const Direction<T>& wo) noexcept {
     return wo.z > 0 && is_squared_length(wo.x * wo.x + wo.y * wo.y + wo.z * wo.z) ? wo : Direction<T>{T(0)};

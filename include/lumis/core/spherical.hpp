@@ -16,7 +16,8 @@ template <Real R>
 // 1 - cos(theta) of a unit vector about +z, with all its digits near the pole.
 template <Real R>
 [[nodiscard]] R versine_of(const Direction<R>& w) noexcept {
-    return real::select(w.z > 0, (w.x * w.x + w.y * w.y) / (1 + w.z), 1 - w.z);
+    const auto upper = w.z > 0;
+    return real::select(upper, real::divide(R(w.x * w.x + w.y * w.y), real::divisor_where(upper, R(1 + w.z))), 1 - w.z);
 }
 
 // The unit vector at polar angle theta from +z, given 1 - cos(theta) in [0, 2], and at a turn in [0, 1] from +x.

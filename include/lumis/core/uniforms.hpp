@@ -49,8 +49,8 @@ template <int N, class T, class F>
 
 }  // namespace detail
 
-// The C++20 concept std::uniform_random_bit_generator, without <random>, which takes half as long to compile as all of
-// Lumis.
+// std::uniform_random_bit_generator, restated: to include <random> for it would add half of the time that all of Lumis takes
+// to compile.
 template <class G>
 concept RandomBitGenerator = std::invocable<G&> && std::unsigned_integral<std::invoke_result_t<G&>> && requires {
     { G::min() } -> std::same_as<std::invoke_result_t<G&>>;

@@ -3,7 +3,7 @@
 //
 // A row is drawn, then a texel in it, then a point of the texel, evenly by solid angle: cos(theta) is uniform between
 // the row's two edges. The density is therefore constant over a texel, P(texel) / solid_angle(texel); no 1 / sin(theta)
-// occurs, at the poles either; and P(texel) is a product of whole counts, so it is the frequency really drawn.
+// occurs, not even at the poles; and P(texel) is a product of whole counts, so it is the frequency really drawn.
 #pragma once
 
 #include "lumis/core/latlong.hpp"
@@ -95,9 +95,9 @@ class BasicEnvironmentMap {
         R pdf;
     };
 
-    // What of a sample is read from the tables: u.y draws the row, u.x the texel within it. Of a float's 2^24 uniforms
-    // a texel has as many as its counts; so many different positions it has in either axis, in the middle of equal parts
-    // (2048 of them for an average texel in a row of 8192, which is as fine as a float's direction).
+    // The part of sampling that reads the tables: u.y draws the row, u.x the texel within it. As many of a float's 2^24
+    // uniforms draw a texel as it has counts. Each yields another position along the axis, in the middle of one of as many
+    // equal parts: 2048 for an average texel in a row of 8192, which is as fine as a float's direction.
     [[nodiscard, gnu::always_inline]] Drawn<T> draw(glm::vec<2, T> u) const noexcept {
         const auto texel = grid_.draw(u);
         const Row& row = rows_[texel.row];
@@ -124,7 +124,8 @@ class BasicEnvironmentMap {
                 std::numeric_limits<T>::infinity()};
     }
 
-    // Read from memory in which it has just been written, w would hold up every look-up, see core/real.hpp.
+    // Forced inline so that w stays in registers: loaded from where it has just been stored, it would delay every look-up,
+    // see core/real.hpp.
     template <RealOf<T> R = T>
     [[nodiscard, gnu::always_inline]] R pdf(const Direction<R>& w) const noexcept {
         return pdf_at(latlong_from_direction(w));
@@ -151,7 +152,7 @@ class BasicEnvironmentMap {
         auto texel = grid_.locate(latlong_from_direction(w));
         const Row& row = rows_[texel.row];
         const T pole = 1 - 2 * row.from_bottom;
-        const T from_edge = (versine_of(Point{w.x, w.z, pole * w.y}) - row.versine) / row.extent;
+        const T from_edge = real::divide(versine_of(Point{w.x, w.z, pole * w.y}) - row.versine, row.extent);
         texel.position.y = std::abs(row.from_bottom - from_edge);
         return grid_.invert(texel);
     }
@@ -198,8 +199,9 @@ class BasicEnvironmentMap {
         return real::largest_of(largest) > (1 + 1e-6) * mean ? mean : 0.0;
     }
 
-    // Of the interpolated luminance over the texels of a row. A bilinear function's mean over one cell weighs the cell's
-    // own value by 3/4 and its two neighbours by 1/8 in either direction: it is 0 only where the function is.
+    // Sets means[x] to the mean of the interpolated luminance over texel x of row y. A bilinear function's mean over a cell
+    // weighs the cell's own value by 3/4 and its two neighbours by 1/8 in either direction: it is 0 only where the function
+    // is.
     void mean_luminance(std::span<const T> luminance, std::size_t y, Interpolation interpolation,
                         std::span<double> means) const noexcept {
         const std::size_t n = width();

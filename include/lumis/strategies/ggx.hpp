@@ -26,7 +26,7 @@ class Ggx {
     // Roughness along x and y.
     [[gnu::always_inline]] explicit Ggx(glm::vec<2, T> alpha) noexcept : alpha_{in_range(alpha.x), in_range(alpha.y)} {
         if (alpha_.x * alpha_.y > 0) {
-            inverse_alpha_ = T(1) / alpha_;
+            inverse_alpha_ = {real::divide(T(1), alpha_.x), real::divide(T(1), alpha_.y)};
         } else {
             alpha_ = {T(0), T(0)};
         }
@@ -40,7 +40,8 @@ class Ggx {
     template <RealOf<T> R = T>
     [[nodiscard]] R D(const Direction<R>& wm) const noexcept {
         const R x = wm.x * inverse_alpha_.x, y = wm.y * inverse_alpha_.y;
-        const R shrinkage = glm::dot(wm, wm) / (x * x + y * y + wm.z * wm.z);
+        const R stretched = x * x + y * y + wm.z * wm.z;
+        const R shrinkage = real::divide(R(glm::dot(wm, wm)), real::divisor_where(stretched > 0, stretched));
         const T peak = std::numbers::inv_pi_v<T> * inverse_alpha_.x * inverse_alpha_.y;
         return real::select(wm.z > 0, peak * shrinkage * shrinkage, 0);
     }
@@ -57,14 +58,16 @@ class Ggx {
     template <RealOf<T> R = T>
     [[nodiscard]] R lambda(const Direction<R>& w) const noexcept {
         const R x = alpha_.x * w.x, y = alpha_.y * w.y, z = real::abs(w.z);
-        const R slope = x * x + y * y;
-        return real::select(slope > 0, slope / (2 * z * (z + real::sqrt(R(slope + z * z)))), 0);
+        const R slope = x * x + y * y, divisor = 2 * z * (z + real::sqrt(R(slope + z * z)));
+        const R quotient = real::divide(slope, real::divisor_where(divisor > 0, divisor));
+        const R grazing = std::numeric_limits<T>::infinity();
+        return real::select(slope > 0, real::select(divisor > 0, quotient, grazing), 0);
     }
 
     // Fraction of a microfacet's area visible from w, 1 / (1 + Lambda); 0 from below. Heitz 2014, eq. 43.
     template <RealOf<T> R = T>
     [[nodiscard]] R G1(const Direction<R>& w) const noexcept {
-        return real::select(w.z > 0 && valid(), 2 * w.z / (w.z + stretched_length(w)), 0);
+        return real::quotient_where(w.z > 0 && valid(), R(2 * w.z), R(w.z + stretched_length(w)));
     }
 
     // 1 / (1 + Lambda(wo) + Lambda(wi)), height-correlated; 0 from below. Heitz 2014, eq. 99.
@@ -89,7 +92,8 @@ class Ggx {
     template <RealOf<T> R>
     [[nodiscard]] R visibility(const Direction<T>& wo, const Direction<R>& wi) const noexcept {
         if (!(wo.z > 0 && valid())) return 0;
-        return real::select(wi.z > 0, T(0.5) / (wo.z * stretched_length(wi) + wi.z * stretched_length(wo)), 0);
+        const R divisor = wo.z * stretched_length(wi) + wi.z * stretched_length(wo);
+        return real::quotient_where(wi.z > 0 && divisor > 0, R(T(0.5)), divisor);
     }
 
     glm::vec<2, T> alpha_;

@@ -25,10 +25,10 @@ class GgxCap {
         : ggx_{ggx}, wo_{above_horizon_or_zero(wo)} {
         const T length = ggx_.stretched_length(wo_);
         if (!is_squared_length(length * length)) return;
-        wo_std_ = {ggx_.alpha().x * wo_.x / length, ggx_.alpha().y * wo_.y / length, wo_.z / length};
+        wo_std_ = real::divide(Direction<T>{ggx_.alpha().x * wo_.x, ggx_.alpha().y * wo_.y, wo_.z}, length);
         shortfall_ = shortfall;
         cap_height_ = 1 + (1 - shortfall) * wo_std_.z;
-        masking_ = 2 / ((1 - shortfall) * wo_.z + length);
+        masking_ = real::divide(T(2), (1 - shortfall) * wo_.z + length);
     }
 
     // u.x = 0 is the top of the cap, u.y = phi / 2 pi.
@@ -36,13 +36,13 @@ class GgxCap {
     [[nodiscard]] Sample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         const Direction<R> normal = along_normal(u);
         const R length = real::length(normal);
-        Sample<Direction<R>, R> drawn{normal / real::select(length > 0, length, 1)};
+        Sample<Direction<R>, R> drawn{real::divide(normal, real::divisor_where(length > 0, length))};
         drawn.pdf = pdf(drawn.value);
         return drawn;
     }
 
-    // Of what is drawn, a vector of any length, for those who need no unit one. Its z is kept as a sum of positive
-    // products: the textbook's cancels at grazing incidence.
+    // The drawn normal, of any length, for callers that need no unit vector. Its z is formed as a sum of positive products:
+    // the textbook's z of the half vector cancels at grazing incidence.
     template <RealOf<T> R = T>
     [[nodiscard, gnu::always_inline]] Direction<R> along_normal(glm::vec<2, R> u) const noexcept {
         const Direction<R> reflected = direction_at(R(u.x * cap_height_), u.y);
@@ -55,17 +55,17 @@ class GgxCap {
         return density_or_zero(R(glm::dot(Direction<R>(wo_), wm) * pdf_per_cosine(wm)));
     }
 
-    // pdf(wm) / wo.wm, of normals that wo sees: what is left of it after reflection. wm may have any length.
+    // pdf(wm) / wo.wm for normals that wo sees, which is all that reflection leaves of it. wm may have any length.
     template <RealOf<T> R = T>
     [[nodiscard]] R pdf_per_cosine(const Direction<R>& wm) const noexcept {
         return masking_ * ggx_.D(wm);
     }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& wm) const noexcept {
-        const Direction<T> stretched{wm.x / ggx_.alpha().x, wm.y / ggx_.alpha().y, wm.z};
-        const Direction<T> half = stretched / real::length(stretched);
+        const Direction<T> stretched{real::divide(wm.x, ggx_.alpha().x), real::divide(wm.y, ggx_.alpha().y), wm.z};
+        const Direction<T> half = real::divide(stretched, real::length(stretched));
         const Direction<T> reflected = 2 * glm::dot(wo_std_, half) * half - wo_std_;
-        return {versine_of(reflected) / cap_height_, turn_of(reflected.x, reflected.y)};
+        return {real::divide(versine_of(reflected), cap_height_), turn_of(reflected.x, reflected.y)};
     }
 
     [[nodiscard]] const Ggx<T>& ggx() const noexcept { return ggx_; }

@@ -32,7 +32,7 @@ class GgxNdf {
         const Direction<R> normal{ggx_.alpha().x * radius * circle.x, ggx_.alpha().y * radius * circle.y,
                                   real::sqrt(R(1 - u.x))};
         const R length = real::length(normal);
-        Sample<Direction<R>, R> drawn{normal / real::select(length > 0, length, 1)};
+        Sample<Direction<R>, R> drawn{real::divide(normal, real::divisor_where(length > 0, length))};
         drawn.pdf = pdf(drawn.value);
         return drawn;
     }
@@ -43,9 +43,9 @@ class GgxNdf {
     }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& wm) const noexcept {
-        const T x = wm.x / ggx_.alpha().x, y = wm.y / ggx_.alpha().y;
+        const T x = real::divide(wm.x, ggx_.alpha().x), y = real::divide(wm.y, ggx_.alpha().y);
         const T slope = x * x + y * y;
-        return {slope / (slope + wm.z * wm.z), turn_of(x, y)};
+        return {real::divide(slope, slope + wm.z * wm.z), turn_of(x, y)};
     }
 
     [[nodiscard]] const Ggx<T>& ggx() const noexcept { return ggx_; }

@@ -41,7 +41,8 @@ class PiecewiseConstant1D {
     // A cell of weight 0 is never drawn.
     [[nodiscard]] Sample<Point, T> sample(glm::vec<1, T> u) const noexcept {
         const auto drawn = table_.draw(0, u.x);
-        const T x = (static_cast<T>(drawn.index) + clear_of_edges(drawn.position, size())) / static_cast<T>(size());
+        const T x =
+            real::divide(static_cast<T>(drawn.index) + clear_of_edges(drawn.position, size()), static_cast<T>(size()));
         return {x, density(drawn.counts)};
     }
 
@@ -93,8 +94,8 @@ class PiecewiseConstant2D {
     [[nodiscard]] Sample<Point, T> sample(glm::vec<2, T> u) const noexcept {
         if (empty()) return {};
         const auto drawn = grid_.draw(u);
-        const Point x{(static_cast<T>(drawn.column) + drawn.position.x) / static_cast<T>(width()),
-                      (static_cast<T>(drawn.row) + drawn.position.y) / static_cast<T>(height())};
+        const Point x{real::divide(static_cast<T>(drawn.column) + drawn.position.x, static_cast<T>(width())),
+                      real::divide(static_cast<T>(drawn.row) + drawn.position.y, static_cast<T>(height()))};
         return {x, density(drawn.row, drawn.counts)};
     }
 
