@@ -58,6 +58,7 @@ Measured accumulation_not_finite(Effort) {
     Measured measured;
     constexpr T nan = std::numeric_limits<T>::quiet_NaN(), infinity = std::numeric_limits<T>::infinity();
     for (const T broken : {nan, infinity, -infinity}) {
+        if (measured.leaves_out<T>(broken)) continue;
         lumis::RunningMoments<T> moments, others;
         for (int i = 0; i < 1000; ++i) {
             moments.add(i % 100 == 0 ? broken : T(i % 2));
@@ -72,7 +73,7 @@ Measured accumulation_not_finite(Effort) {
     moments.add(T(1e30));
     for (int i = 0; i < 1000; ++i) moments.add(T(1));
     measured.compare(moments.mean(), (Quad{T(1e30)} + 1000) / 1001);
-    measured.expect(std::isfinite(moments.variance()) && moments.rejected() == 0);
+    measured.expect(is_finite(moments.variance()) && moments.rejected() == 0);
     return measured;
 }
 

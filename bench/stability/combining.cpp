@@ -54,7 +54,9 @@ Measured mis_weights(Effort) {
         sweep(1e-38, 1e38, steps, [&](double second) {
             for (const double count : {1.0, 1e6}) {
                 const T p = static_cast<T>(first), q = static_cast<T>(second) * static_cast<T>(count);
-                if (!std::isfinite(q)) continue;  // in float: see the policy
+                if (second * count > double{std::numeric_limits<T>::max()}) continue;  // in float: see the policy
+                // 1e-38 is subnormal in float.
+                if (measured.leaves_out<T>(first) || measured.leaves_out<T>(second * count)) continue;
                 for (const int beta : {1, 2, 3}) check_power_weights<T>(measured, {p, q}, beta);
                 const T largest = lumis::mis_weight(lumis::MaximumHeuristic{}, p, q);
                 measured.expect(largest == (p > q ? T(1) : p < q ? T(0) : T(0.5)));
@@ -88,15 +90,20 @@ Measured mis_weights_policy(Effort) {
     const auto check = [&](const auto& heuristic) {
         const auto weight = [&](auto... densities) { return lumis::mis_weight(heuristic, T(densities)...); };
         measured.expect(weight(0, 0) == 0 && weight(0, 0, 0) == 0);
-        measured.expect(weight(0, nan<T>) == 0 && weight(nan<T>, 0) == 0);
-        for (const T p : {T(1e-38), T(1), T(1e38)}) {
+        for (const double p : {1e-38, 1.0, 1e38}) {
+            if (measured.leaves_out<T>(p)) continue;
             measured.expect(weight(p, 0) == 1 && weight(0, p) == 0);
-            measured.expect(weight(infinity<T>, p) == 1 && weight(p, infinity<T>) == 0);
-            measured.expect(weight(nan<T>, p) == 0 && weight(p, nan<T>) == 0 && weight(p, p, nan<T>) == 0);
+            if (!measured.leaves_out<T>(infinity<T>)) {
+                measured.expect(weight(infinity<T>, p) == 1 && weight(p, infinity<T>) == 0);
+                measured.expect(weight(nan<T>, p) == 0 && weight(p, nan<T>) == 0 && weight(p, p, nan<T>) == 0);
+            }
         }
-        measured.expect(weight(infinity<T>, 0) == 1 && weight(0, infinity<T>) == 0);
-        measured.expect(weight(infinity<T>, infinity<T>) == T(0.5));
-        measured.expect(weight(infinity<T>, infinity<T>, 1) == T(0.5));
+        if (!measured.leaves_out<T>(infinity<T>)) {
+            measured.expect(weight(0, nan<T>) == 0 && weight(nan<T>, 0) == 0);
+            measured.expect(weight(infinity<T>, 0) == 1 && weight(0, infinity<T>) == 0);
+            measured.expect(weight(infinity<T>, infinity<T>) == T(0.5));
+            measured.expect(weight(infinity<T>, infinity<T>, 1) == T(0.5));
+        }
         // Scaling all densities changes nothing.
         for (const double ratio : {1e-6, 0.3, 1.0, 50.0}) {
             const T plain = weight(1, ratio);

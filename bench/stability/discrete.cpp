@@ -35,33 +35,29 @@ std::vector<std::vector<T>> awkward_weights() {
     sweep(1e-10, 1, 1000, [&](double weight) { decades.push_back(static_cast<T>(weight)); });
     std::vector<T> gaps(4096, T(0));
     for (std::size_t i = 0; i < gaps.size(); i += 97) gaps[i] = T(1) / static_cast<T>(i + 1);
-    return {{T(1), T(1e-8), T(1)},
-            {T(0.3)},
-            {T(0), T(0), T(1), T(2), T(0), T(0), T(0)},
-            {std::numeric_limits<T>::max(), std::numeric_limits<T>::max(), std::numeric_limits<T>::denorm_min()},
-            decades,
-            gaps};
+    const T largest = std::numeric_limits<T>::max();
+    const T least = flushes_subnormals<T>() ? T(0) : std::numeric_limits<T>::denorm_min();
+    return {{T(1), T(1e-8), T(1)},     {T(0.3)}, {T(0), T(0), T(1), T(2), T(0), T(0), T(0)},
+            {largest, largest, least}, decades,  gaps};
 }
 
+// In quad: these may be as large as numbers get.
 template <class T>
-double sum_of(const std::vector<T>& weights) {
-    // In units of the largest: these may be as large as numbers get.
-    const double largest = *std::ranges::max_element(weights);
-    return std::accumulate(weights.begin(), weights.end(), 0.0,
-                           [&](double sum, T weight) { return sum + double{weight} / largest; });
+Quad sum_of(const std::vector<T>& weights) {
+    return std::accumulate(weights.begin(), weights.end(), Quad{0});
 }
 
 // The probability of every entry: none for weight 0, some for all others, near its share, and 1 altogether.
 template <class T>
 void check_probabilities(Measured& measured, const std::vector<T>& weights, auto probability) {
-    const double sum = sum_of(weights), largest = *std::ranges::max_element(weights);
+    const Quad sum = sum_of(weights);
     const double count = 1 / double{lumis::total_counts<T>};
     Quad total = 0;
     for (std::size_t i = 0; i < weights.size(); ++i) {
         const double p = probability(i);
         total += p;
         measured.expect(weights[i] > 0 ? p >= 0.999 * count : p == 0);
-        const double share = double{weights[i]} / largest / sum;
+        const double share = static_cast<double>(weights[i] / sum);
         // One count for being there, and another for rounding; what all those take is missing elsewhere.
         const double allowed = 2 * count + share * static_cast<double>(weights.size()) * count;
         measured.expect(std::abs(p - share) <= 1.001 * allowed);

@@ -141,6 +141,7 @@ Measured environment_bad_texels(Effort) {
         }
     };
     for (const T bad : {std::numeric_limits<T>::quiet_NaN(), std::numeric_limits<T>::infinity(), T(-1)}) {
+        if (measured.leaves_out<T>(bad)) continue;
         for (const std::size_t i : {0u, 5u, 31u}) {
             std::vector<T> texels(32, T(1));
             texels[i] = bad;

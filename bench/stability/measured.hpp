@@ -10,11 +10,13 @@
 #include <lumis/lumis.hpp>
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <random>
+#include <type_traits>
 
 namespace stability {
 
@@ -25,13 +27,35 @@ struct Effort {
     [[nodiscard]] std::int64_t of(std::int64_t full) const noexcept { return quick ? full / 32 + 1 : full; }
 };
 
+// Whether NaN and infinity are known to this build: not under -ffinite-math-only, which -ffast-math implies.
+inline constexpr bool knows_nan = !__FINITE_MATH_ONLY__;
+
+// Whether subnormal numbers count as 0 in this process, as programs linked with -ffast-math have it.
+template <std::floating_point T>
+[[nodiscard]] bool flushes_subnormals() {
+    const volatile T least = std::numeric_limits<T>::denorm_min();
+    return !(least > 0);
+}
+
+// By their bits: std::isfinite is always true under -ffinite-math-only, and a subnormal number is 0 where
+// those are flushed.
+template <std::floating_point T>
+[[nodiscard]] auto bits_of(T x) noexcept {
+    using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+    return std::bit_cast<Bits>(std::abs(x));
+}
+template <std::floating_point T>
+[[nodiscard]] bool is_finite(T x) noexcept {
+    return bits_of(x) < bits_of(std::numeric_limits<T>::infinity());
+}
+
 class Measured {
   public:
     // A result against its reference, which is positive.
     template <std::floating_point T>
     void compare(T value, const Quad& reference) {
         density(value);
-        error(static_cast<double>(abs(Quad{value} - reference) / reference));
+        if (is_finite(value)) error(static_cast<double>(abs(Quad{value} - reference) / reference));
     }
 
     // An error that the case worked out itself.
@@ -46,7 +70,7 @@ class Measured {
     // A density or a weight: finite and not negative.
     template <std::floating_point T>
     void density(T value) {
-        expect(value >= 0 && value <= std::numeric_limits<T>::max());
+        expect(is_finite(value) && value >= 0);
     }
 
     // A point must be finite, and its density a density.
@@ -54,7 +78,7 @@ class Measured {
     void sample(const S& sample, T pdf_of_value) {
         density(sample.pdf);
         density(pdf_of_value);
-        expect(std::isfinite(sample.value.x) && std::isfinite(sample.value.y) && std::isfinite(sample.value.z));
+        expect(is_finite(sample.value.x) && is_finite(sample.value.y) && is_finite(sample.value.z));
     }
 
     // A rule that must hold.
@@ -71,10 +95,24 @@ class Measured {
         const double error = estimates.standard_error();
         const double excess = std::fmax(std::abs(estimates.mean() - answer) - rounding * std::abs(answer), 0.0);
         const double z = excess > 0 ? excess / error : 0.0;
-        keep_worst(worst_z_, z);
+        keep_worst(worst_z_, is_finite(excess) ? z : std::numeric_limits<double>::infinity());
         standard_error_ = std::fmax(standard_error_, error / answer);
     }
 
+    // Whether a case is not to ask about the T nearest to x, because this build does not know it: NaN and infinity, or
+    // subnormal numbers, which may have become 0 as a T already. What a case has left out so is said in the table.
+    template <std::floating_point T>
+    [[nodiscard]] bool leaves_out(double x) {
+        const bool is_unknown = !knows_nan && !is_finite(x);
+        const bool is_flushed =
+            flushes_subnormals<T>() && is_finite(x) && x != 0 && std::abs(x) < double{std::numeric_limits<T>::min()};
+        leaves_out_not_finite_ |= is_unknown;
+        leaves_out_subnormal_ |= is_flushed;
+        return is_unknown || is_flushed;
+    }
+
+    [[nodiscard]] bool leaves_out_not_finite() const noexcept { return leaves_out_not_finite_; }
+    [[nodiscard]] bool leaves_out_subnormal() const noexcept { return leaves_out_subnormal_; }
     [[nodiscard]] std::uint64_t evaluations() const noexcept { return evaluations_; }
     [[nodiscard]] std::uint64_t misbehaved() const noexcept { return misbehaved_; }
     [[nodiscard]] const std::optional<double>& worst_error() const noexcept { return worst_error_; }
@@ -84,14 +122,15 @@ class Measured {
     [[nodiscard]] double standard_error() const noexcept { return standard_error_; }
 
   private:
-    // A NaN is the worst, and stays.
+    // What is not finite is the worst, and stays.
     static void keep_worst(std::optional<double>& worst, double value) {
-        if (!worst || (!std::isnan(*worst) && !(value <= *worst))) worst = value;
+        if (!worst || (is_finite(*worst) && !(is_finite(value) && value <= *worst))) worst = value;
     }
 
     std::uint64_t evaluations_{}, misbehaved_{};
     std::optional<double> worst_error_, usual_error_, worst_z_;
     double standard_error_{};
+    bool leaves_out_not_finite_{}, leaves_out_subnormal_{};
 };
 
 template <class T>

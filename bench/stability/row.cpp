@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 
 json number(const std::optional<double>& value) {
-    return value && std::isfinite(*value) ? json(*value) : json(nullptr);
+    return value && is_finite(*value) ? json(*value) : json(nullptr);
 }
 
 std::string text(const std::optional<double>& value, const char* format = "%.2g") {

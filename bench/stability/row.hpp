@@ -20,10 +20,13 @@ struct Row {
     Measured measured;
     double cpu_seconds;
 
-    // A comparison with NaN fails.
+    // What is not finite fails.
     [[nodiscard]] bool passed() const {
-        const bool accurate = !measured.worst_error() || *measured.worst_error() <= error_limit.value_or(0);
-        const bool unbiased = !measured.worst_z() || *measured.worst_z() <= z_limit;
+        const auto within = [](const std::optional<double>& worst, double limit) {
+            return !worst || (is_finite(*worst) && *worst <= limit);
+        };
+        const bool accurate = within(measured.worst_error(), error_limit.value_or(0));
+        const bool unbiased = within(measured.worst_z(), z_limit);
         return measured.misbehaved() == 0 && measured.evaluations() > 0 && accurate && unbiased;
     }
 };

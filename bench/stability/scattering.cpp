@@ -189,15 +189,16 @@ Measured ggx_nothing_to_draw(Effort) {
         check(lumis::GgxVndf<T>{wo, alpha});
         check(lumis::GgxReflection<T>{wo, alpha});
         check(lumis::GgxBoundedReflection<T>{wo, alpha});
-        measured.expect(std::isnan(wo.z) || lumis::Ggx<T>{alpha}.G2(wo, wo) == 0);
+        measured.expect(!is_finite(wo.z) || lumis::Ggx<T>{alpha}.G2(wo, wo) == 0);
     };
     constexpr T nan = std::numeric_limits<T>::quiet_NaN(), infinity = std::numeric_limits<T>::infinity();
     for_each_alpha<T>([&](const auto& alpha) {
         sweep(1e-6, 1, 4, [&](double depth) { check_all(at_cosine<T>(-depth), alpha); });
         check_all({T(1), T(0), T(0)}, alpha);
-        check_all({nan, nan, nan}, alpha);
+        if (!measured.leaves_out<T>(nan)) check_all({nan, nan, nan}, alpha);
     });
     for (const T alpha : {T(-0.1), T(2e4), infinity, nan}) {
+        if (measured.leaves_out<T>(alpha)) continue;
         check_all(at_cosine<T>(0.5), {alpha, T(0.5)});
         check_all(at_cosine<T>(0.5), {T(0.5), alpha});
         check(lumis::GgxNdf<T>{{alpha, alpha}});
