@@ -57,6 +57,12 @@ template <Real R, std::size_t N>
 template <std::floating_point T>
 inline constexpr T largest_sum = std::numeric_limits<T>::max() / 2;
 
+// Beside a share of this, a subnormal one is below the sum's last place, even a million of them: a processor may flush
+// them to 0 (FTZ, DAZ), as in programs linked with -ffast-math.
+template <std::floating_point T>
+inline constexpr T least_share =
+    std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() / std::numeric_limits<T>::epsilon();
+
 // The sum of term(density). Sums of more than 8 terms are compensated by Sum2 of Ogita, Rump and Oishi 2005, "Accurate Sum
 // and Dot Product", algorithm 4.1: what each addition rounds off is added up separately. Unlike in Kahan's sum, no addition
 // waits for what the one before it rounded off. Stops at the first partial sum that has overflowed, and returns that.
@@ -123,14 +129,15 @@ template <Real R, std::size_t N, class Heuristic>
 }
 
 // The share of technique `own` in the sum of all. Two comparisons find densities that need scaling or the policy: a share
-// too small to have all its digits, a sum that has overflowed or holds an Inf or a NaN. All others take the short way.
+// so small that others, which were flushed to 0, may be missing in the sum; a sum that has overflowed or holds an Inf or a
+// NaN. All others take the short way.
 template <Real R, std::size_t N, class Heuristic, class Share>
 [[nodiscard, gnu::always_inline]] inline R weight_by_shares(const Heuristic& heuristic, std::size_t own,
                                                             std::span<const R, N> densities, Share share) noexcept {
     using T = scalar_of<R>;
     const R sum = sum_of(densities, [&](R density) { return share(density, T(1)); });
     const R own_share = share(densities[own], T(1));
-    if (real::all(own_share >= std::numeric_limits<T>::min() && sum <= largest_sum<T>)) [[likely]]
+    if (real::all(own_share >= least_share<T> && sum <= largest_sum<T>)) [[likely]]
         return real::divide(own_share, sum);
     if constexpr (std::floating_point<R>) {
         return weight_at_scale<T>(own, by_value(densities), share);

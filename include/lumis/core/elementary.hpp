@@ -76,7 +76,7 @@ template <Real R>
 [[nodiscard, gnu::always_inline]] inline glm::vec<2, R> half_circle(R turn) noexcept {
     using P = detail::Minimax<scalar_of<R>>;
     const R square = turn * turn;
-    return {(1 - 4 * turn) * (1 + 4 * turn) * detail::polynomial(square, P::cosine),
+    return {real::rounded(R(1 - 4 * turn)) * real::rounded(R(1 + 4 * turn)) * detail::polynomial(square, P::cosine),
             turn * detail::polynomial(square, P::sine)};
 }
 
@@ -84,8 +84,8 @@ template <Real R>
 // float up to four units in the last place. Turns that are points of the uniforms' lattice are folded without rounding.
 template <Real R>
 [[nodiscard, gnu::always_inline]] inline glm::vec<2, R> unit_circle(R turn) noexcept {
-    const R to_half = scalar_of<R>(0.5) - turn;
-    const auto folded = half_circle<R>(real::abs(to_half) - scalar_of<R>(0.25));
+    const R to_half = real::rounded(R(scalar_of<R>(0.5) - turn));
+    const auto folded = half_circle<R>(real::rounded(R(real::abs(to_half) - scalar_of<R>(0.25))));
     return {folded.y, real::copysign(folded.x, to_half)};
 }
 
@@ -111,8 +111,8 @@ template <Real R>
                                real::select(beyond, R(T(0.125)), 0));
     }
     // Where y is the larger, 1/4 - octant; where x is negative, 1/2 - quadrant.
-    const R quadrant = real::abs(R(T(0.125) - real::copysign(R(T(0.125)), ax - ay) - octant));
-    const R half = real::abs(R(T(0.25) - real::copysign(R(T(0.25)), x) - quadrant));
+    const R quadrant = real::abs(R(real::rounded(R(T(0.125) - real::copysign(R(T(0.125)), ax - ay))) - octant));
+    const R half = real::abs(R(real::rounded(R(T(0.25) - real::copysign(R(T(0.25)), x))) - quadrant));
     return real::copysign(half, y);
 }
 
