@@ -40,11 +40,13 @@ template <std::floating_point T>
 
 namespace detail {
 
+// {draw(), draw(), ...}, in this order. (Filled by index, the vector may be used uninitialised as far as g++ -O3 can see.)
 template <int N, class T, class F>
 [[nodiscard]] constexpr glm::vec<N, T> fill(F&& draw) {
-    glm::vec<N, T> u;
-    for (int i = 0; i < N; ++i) u[i] = draw();
-    return u;
+    const auto all = [&]<int... I>(std::integer_sequence<int, I...>) {
+        return glm::vec<N, T>{(static_cast<void>(I), draw())...};
+    };
+    return all(std::make_integer_sequence<int, N>{});
 }
 
 }  // namespace detail
