@@ -132,3 +132,51 @@ TEMPLATE_TEST_CASE("numbers that are not finite are counted and enter nothing", 
     CHECK(only_rejected.rejected() == 5);
     CHECK(only_rejected.mean() == 2);
 }
+
+// Differences of such numbers overflow, and their squares do. The mean exists, and no NaN is made on the way to it.
+TEST_CASE("numbers near the end of double's range have a mean", "[running_moments]") {
+    const double huge = GENERATE(1e154, 1e200, 1e308, std::numeric_limits<double>::max());
+    const double infinity = std::numeric_limits<double>::infinity();
+    RunningMoments<double> moments, upper, lower;
+    for (int i = 0; i < 1000; ++i) {
+        for (const double sign : {1.0, -1.0, -1.0, 1.0}) {
+            moments.add(sign * huge);
+            (sign > 0 ? upper : lower).add(sign * huge);
+        }
+    }
+    CHECK(moments.rejected() == 0);
+    CHECK(std::abs(moments.mean()) <= 1e-12 * huge);
+    CHECK(moments.variance() == infinity);
+    CHECK(moments.standard_error() == infinity);
+    CHECK(upper.mean() == huge);
+    CHECK(upper.variance() == 0);
+
+    upper.merge(lower);
+    CHECK(upper.count() == 4000);
+    CHECK(std::abs(upper.mean()) <= 1e-12 * huge);
+    CHECK(upper.variance() == infinity);
+    // What comes after an overflow leaves the mean right.
+    RunningMoments<double> later = upper;
+    later.merge(moments);
+    for (int i = 0; i < 12'000; ++i) later.add(huge);
+    CHECK(agree(later.mean(), 0.6 * huge, 1e-12));
+    CHECK(later.variance() == infinity);
+
+    RunningMoments<double> unequal;
+    unequal.add(-huge);
+    unequal.add(-huge);
+    unequal.add(huge);
+    CHECK(agree(unequal.mean(), -huge / 3, 1e-15));
+    RunningMoments<double> single;
+    single.add(huge);
+    unequal.merge(single);
+    CHECK(std::abs(unequal.mean()) <= 1e-15 * huge);
+}
+
+TEST_CASE("the largest floats have a mean and a variance", "[running_moments]") {
+    constexpr float largest = std::numeric_limits<float>::max();
+    RunningMoments<float> moments;
+    for (int i = 0; i < 1000; ++i) moments.add(i % 2 == 0 ? largest : -largest);
+    CHECK(std::abs(moments.mean()) <= 1e-12 * double{largest});
+    CHECK(agree(moments.variance(), 1000.0 / 999 * double{largest} * double{largest}, 1e-12));
+}

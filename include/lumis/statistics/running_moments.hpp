@@ -1,5 +1,7 @@
 // Count, mean and variance of a stream of numbers, by Welford's update and Chan, Golub and LeVeque's merge (1979), in
 // double whatever is added: the mean of 1e8 floats keeps its digits, and so does a small variance about a large mean.
+// The mean of finite numbers is always finite. Their variance is infinite, never NaN, where the sum of squared deviations
+// exceeds double's range: deviations beyond 1e154, which no float reaches.
 #pragma once
 
 #include <cmath>
@@ -19,8 +21,13 @@ class RunningMoments {
             return;
         }
         ++count_;
+        const auto count = static_cast<double>(count_);
         const double from_old_mean = double{value} - mean_;
-        mean_ += from_old_mean / static_cast<double>(count_);
+        if (std::isfinite(from_old_mean)) {
+            mean_ += from_old_mean / count;
+        } else {
+            mean_ = weighted_mean(mean_, count - 1, double{value}, 1);
+        }
         squares_ += from_old_mean * (double{value} - mean_);
     }
 
@@ -34,7 +41,11 @@ class RunningMoments {
         }
         const auto mine = static_cast<double>(count_), theirs = static_cast<double>(other.count_);
         const double between = other.mean_ - mean_;
-        mean_ += between * (theirs / (mine + theirs));
+        if (std::isfinite(between)) {
+            mean_ += between * (theirs / (mine + theirs));
+        } else {
+            mean_ = weighted_mean(mean_, mine, other.mean_, theirs);
+        }
         squares_ += other.squares_ + between * between * (mine * theirs / (mine + theirs));
         count_ += other.count_;
     }
@@ -45,7 +56,7 @@ class RunningMoments {
     // 0 of nothing.
     [[nodiscard]] double mean() const noexcept { return mean_; }
 
-    // Unbiased (divided by count - 1); NaN for fewer than two numbers.
+    // Unbiased (divided by count - 1); NaN for fewer than two numbers, infinite beyond double's range.
     [[nodiscard]] double variance() const noexcept {
         return count_ > 1 ? squares_ / static_cast<double>(count_ - 1) : std::numeric_limits<double>::quiet_NaN();
     }
@@ -54,6 +65,13 @@ class RunningMoments {
     [[nodiscard]] double standard_error() const noexcept { return std::sqrt(variance() / static_cast<double>(count_)); }
 
   private:
+    // The mean of two groups of numbers, given their means and sizes, without the difference of the means: that of
+    // 1e308 and -1e308 overflows.
+    static double weighted_mean(double a, double a_size, double b, double b_size) noexcept {
+        const double size = a_size + b_size;
+        return a * (a_size / size) + b * (b_size / size);
+    }
+
     std::uint64_t count_{};
     std::uint64_t rejected_{};
     double mean_{};
