@@ -79,3 +79,68 @@ TEST_CASE("unbiasedness under every heuristic refuses", "[laws]") {
     CHECK(integrates(Cosine{}, set));
     CHECK_FALSE(integrates(Cosine{}, consistently_broken(set, [](const V&, double pdf) { return pdf / 0.5; })));
 }
+
+TEST_CASE("unbiasedness of estimates without variance", "[laws]") {
+    const auto ones = [] { return 1.0; };
+    const auto right = laws::unbiased(ones, 1);
+    CHECK(right.passed);
+    CHECK(right.number == 1);
+    CHECK(right.message == "all 1000000 estimates are 1, answer 1; off by 0, allowed 8.8817842e-16");
+    const auto wrong = laws::unbiased(ones, 1.001, {100});
+    CHECK_FALSE(wrong.passed);
+    CHECK(wrong.decided);
+    CHECK(wrong.number == 0);
+    CHECK(wrong.message.find("all 100 estimates are 1, answer 1.001; off by 0.001") == 0);
+    CHECK(laws::unbiased(ones, 1.001, {.samples = 100, .answer_error = 0.0011}).passed);
+    // What a float estimate rounds is no bias, with variance or without; more is.
+    const auto third = [] { return 1.0f / 3; };
+    CHECK(laws::unbiased(third, 1 / 3.0, {100}).passed);
+    CHECK_FALSE(laws::unbiased(third, 1 / 3.0 + 1e-6, {100}).passed);
+    int n = 0;
+    CHECK(laws::unbiased([&] { return std::nextafter(1.0f / 3, n++ % 2 == 0 ? 1.0f : 0.0f); }, 1 / 3.0).passed);
+}
+
+TEST_CASE("unbiasedness of too few estimates, or too large ones, is undecided", "[laws]") {
+    const auto one = laws::unbiased([] { return 1.0; }, 1, {1});
+    CHECK_FALSE(one.passed);
+    CHECK_FALSE(one.decided);
+    double sign = 1;
+    const auto huge = laws::unbiased([&] { return 1e308 * (sign = -sign); }, 0, {100});
+    CHECK_FALSE(huge.passed);
+    CHECK_FALSE(huge.decided);
+    CHECK(huge.message.find("no finite standard error") != std::string::npos);
+}
+
+TEST_CASE("unbiasedness of colours", "[laws]") {
+    auto uniforms = lumis::Uniforms<std::mt19937_64, float>{std::mt19937_64{1}};
+    const glm::vec3 albedo{0.2f, 0.5f, 0};
+    const auto estimate = [&] { return 2 * uniforms.next<1>().x * albedo; };
+    const laws::UnbiasedOptions options{200'000};
+    CHECK(laws::unbiased(estimate, glm::dvec3{albedo}, options).passed);
+    const auto tinted = laws::unbiased(estimate, glm::vec3{0.2f, 0.505f, 0}, options);
+    CHECK_FALSE(tinted.passed);
+    CHECK(tinted.message.find("component 1: ") == 0);
+    CHECK_FALSE(laws::unbiased(estimate, glm::vec3{0.2f, 0.5f, 1e-6f}, options).passed);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    CHECK_FALSE(laws::unbiased([&] { return glm::vec3{0.2f, 0.5f, nan}; }, albedo, options).passed);
+
+    const auto f = [&](const V& w) { return std::fmax(w.z, 0) * glm::dvec3{1, 2, 3}; };
+    const auto integrates = [&](const glm::dvec3& answer) {
+        return laws::unbiased_under_every_heuristic(f, answer, laws::factors_of_two, {20'000}, Cosine{}, Uniform{});
+    };
+    CHECK(integrates(std::numbers::pi * glm::dvec3{1, 2, 3}).passed);
+    CHECK_FALSE(integrates(std::numbers::pi * glm::dvec3{1, 2, 3.1}).passed);
+}
+
+TEST_CASE("a law's message tells what its p-value means, and the law prints it", "[laws]") {
+    auto uniforms = lumis::Uniforms<std::mt19937_64, double>{std::mt19937_64{1}};
+    const auto law = laws::unbiased([&] { return 2 * uniforms.next<1>().x; }, 1.02, {100'000, {0.01, 1000}});
+    const std::string printed = Catch::Detail::stringify(law);
+    CAPTURE(printed);
+    CHECK(printed.find("failed: mean ") == 0);
+    CHECK(printed.find("standard errors; p = ") != std::string::npos);
+    CHECK(printed.find("below 1.005") != std::string::npos);
+    CHECK(printed.find("a correct strategy fails with probability 0.01 in any of 1000 tests") != std::string::npos);
+    CHECK(Catch::Detail::stringify(laws::LawResult{true, 0, "agreed"}) == "passed: agreed");
+    CHECK(Catch::Detail::stringify(laws::LawResult{false, 0, "no chart", false}) == "undecided: no chart");
+}

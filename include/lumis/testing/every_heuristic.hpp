@@ -51,10 +51,21 @@ template <std::size_t N, class T>
     return result + ')';
 }
 
+// The largest magnitude among the components of a number or colour.
+template <class Answer>
+[[nodiscard]] double magnitude(const Answer& answer) {
+    double largest = 0;
+    for (int channel = 0; channel < Channels<Answer>::number; ++channel) {
+        largest = std::fmax(largest, std::abs(Channels<Answer>::get(answer, channel)));
+    }
+    return largest;
+}
+
 // Keeps the worst of many tests.
+template <class Answer>
 class WorstOfFamily {
   public:
-    WorstOfFamily(double answer, const HeuristicsOptions& options, std::size_t tests)
+    WorstOfFamily(const Answer& answer, const HeuristicsOptions& options, std::size_t tests)
         : answer_{answer}, options_{options}, tests_{tests} {
         result_.passed = true;
         result_.number = 1;
@@ -63,7 +74,7 @@ class WorstOfFamily {
     template <class Scalar, class Estimate>
     void test(const std::string& name, const Estimate& estimate) {
         // An estimator without variance is off by its rounding.
-        const double rounding = 16 * double{std::numeric_limits<Scalar>::epsilon()} * std::abs(answer_);
+        const double rounding = 16 * double{std::numeric_limits<Scalar>::epsilon()} * magnitude(answer_);
         UnbiasedOptions options{options_.samples, options_.significance, std::fmax(options_.answer_error, rounding)};
         options.significance.family *= tests_;
         Uniforms<std::mt19937_64, Scalar> uniforms{std::mt19937_64{options_.seed++}};
@@ -82,7 +93,7 @@ class WorstOfFamily {
     [[nodiscard]] UnbiasedResult result() const { return result_; }
 
   private:
-    double answer_;
+    Answer answer_;
     HeuristicsOptions options_;
     std::size_t tests_;
     UnbiasedResult result_{};
@@ -92,12 +103,12 @@ class WorstOfFamily {
 
 // For an estimator of one's own: estimate(heuristic, uniforms) yields independent estimates. number: the smallest
 // p-value; smallest_bias_seen: the largest over all heuristics.
-template <std::floating_point Scalar, class Estimate>
-[[nodiscard]] UnbiasedResult unbiased_under_every_heuristic(const Estimate& estimate, double answer,
+template <std::floating_point Scalar, class Estimate, class Answer>
+[[nodiscard]] UnbiasedResult unbiased_under_every_heuristic(const Estimate& estimate, const Answer& answer,
                                                             const HeuristicsOptions& options = {}) {
     detail::WorstOfFamily worst{answer, options, number_of_heuristics};
     for_each_heuristic([&](const auto& heuristic, const char* name) {
-        worst.test<Scalar>(name, [&](auto& uniforms) { return estimate(heuristic, uniforms); });
+        worst.template test<Scalar>(name, [&](auto& uniforms) { return estimate(heuristic, uniforms); });
     });
     return worst.result();
 }
@@ -116,9 +127,9 @@ inline const Factors<2> factors_of_two{{{1, 1}, {1, 3}, {3, 1}, {0, 1}, {3, 0}},
 inline const Factors<2> factors_of_two_with_second{{{1, 1}, {1, 3}, {3, 1}, {0, 1}}, {{0.5, 0.5}, {0.2, 0.8}, {0, 1}}};
 
 // f is integrated by multi_sample and one_sample over strategies, and called as by them.
-template <class F, class First, class... Rest>
+template <class F, class Answer, class First, class... Rest>
     requires Composable<First, Rest...>
-[[nodiscard]] UnbiasedResult unbiased_under_every_heuristic(const F& f, double answer,
+[[nodiscard]] UnbiasedResult unbiased_under_every_heuristic(const F& f, const Answer& answer,
                                                             const Factors<1 + sizeof...(Rest)>& factors,
                                                             const HeuristicsOptions& options, const First& first,
                                                             const Rest&... rest) {
@@ -128,7 +139,8 @@ template <class F, class First, class... Rest>
     const auto run = [&]<std::size_t... I>(std::index_sequence<I...>) {
         for_each_heuristic([&](const auto& heuristic, const char* name) {
             const auto test = [&](const std::string& factor, const auto& estimator) {
-                worst.test<Scalar>(name + factor, [&](auto& uniforms) { return estimator.estimate(f, uniforms); });
+                worst.template test<Scalar>(name + factor,
+                                            [&](auto& uniforms) { return estimator.estimate(f, uniforms); });
             };
             const auto strategies = std::tie(first, rest...);
             for (const auto& n : factors.counts) {

@@ -5,17 +5,23 @@
 #include "lumis/testing/result.hpp"
 
 #include <boost/math/distributions/normal.hpp>
+#include <glm/vec3.hpp>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 namespace lumis::testing {
 
 struct UnbiasedOptions {
     std::int64_t samples = 1'000'000;
     Significance significance{};
-    double answer_error = 0;  // of the answer itself, or what rounding may add; absolute
+    // Of the answer itself, or what rounding may add, absolute. Four units in the last place of the answer, in the type
+    // that estimate() returns, are allowed anyway.
+    double answer_error = 0;
 };
 
 struct UnbiasedResult : LawResult {
@@ -23,28 +29,91 @@ struct UnbiasedResult : LawResult {
     double smallest_bias_seen{};  // relative; a larger one would have failed with probability 1/2 or more
 };
 
-// estimate() yields independent estimates. Two-sided z-test; one estimate that is not finite fails. number: the
-// p-value.
-template <class Estimate>
-[[nodiscard]] UnbiasedResult unbiased(Estimate&& estimate, double answer, const UnbiasedOptions& options = {}) {
-    RunningMoments<double> moments;
-    for (std::int64_t i = 0; i < options.samples; ++i) moments.add(static_cast<double>(estimate()));
+namespace detail {
 
+template <class T>
+struct Channels {
+    static constexpr int number = 1;
+    using Scalar = T;
+    static double get(T value, int) noexcept { return static_cast<double>(value); }
+};
+template <int N, class T, glm::qualifier Q>
+struct Channels<glm::vec<N, T, Q>> {
+    static constexpr int number = N;
+    using Scalar = T;
+    static double get(const glm::vec<N, T, Q>& value, int channel) noexcept {
+        return static_cast<double>(value[channel]);
+    }
+};
+
+// Two-sided z-test of a mean.
+[[nodiscard]] inline UnbiasedResult z_test(const RunningMoments<double>& moments, double answer, double answer_error,
+                                           const Significance& significance) {
     const boost::math::normal_distribution<double> normal;
-    const double error = moments.standard_error(), scale = std::abs(answer);
-    const double excess = std::abs(moments.mean() - answer) - options.answer_error;
-    const double z = excess <= 0 ? 0.0 : excess / error;  // NaN stays NaN, and fails
-    const double p = std::isfinite(z) ? 2 * cdf(complement(normal, z)) : 0.0;
-    const double threshold = options.significance.threshold();
+    const double mean = moments.mean(), error = moments.standard_error(), threshold = significance.threshold();
+    const double off = std::abs(mean - answer), excess = std::fmax(off - answer_error, 0), scale = std::abs(answer);
+    const auto number_of = [](std::uint64_t n) { return static_cast<double>(n); };
 
     UnbiasedResult result;
-    result.passed = p >= threshold && moments.rejected() == 0;
-    result.number = p;
     result.relative_standard_error = error / scale;
-    result.smallest_bias_seen = (quantile(complement(normal, threshold / 2)) * error + options.answer_error) / scale;
-    result.message = detail::text("mean ", moments.mean(), " +- ", error, ", answer ", answer, ", z = ", z, ", p = ", p,
-                                  ", not finite: ", static_cast<double>(moments.rejected()));
+    result.smallest_bias_seen = (quantile(complement(normal, threshold / 2)) * error + answer_error) / scale;
+    result.message = text("mean ", mean, " +- ", error, ", answer ", answer);
+    if (moments.rejected() > 0) {
+        result.message += text("; ", number_of(moments.rejected()), " of ",
+                               number_of(moments.rejected() + moments.count()), " estimates are not finite");
+    } else if (!std::isfinite(error)) {
+        // Too few estimates, or too large ones.
+        result.decided = false;
+        result.message += text("; ", number_of(moments.count()), " estimates have no finite standard error");
+    } else if (!(error > 0)) {
+        // All estimates are the same: what they are off by is no accident.
+        result.number = excess > 0 ? 0 : 1;
+        result.passed = excess <= 0;
+        result.message = text("all ", number_of(moments.count()), " estimates are ", mean, ", answer ", answer,
+                              "; off by ", off, ", allowed ", answer_error);
+    } else {
+        const double z = excess / error;
+        result.number = std::isfinite(z) ? 2 * cdf(complement(normal, z)) : 0.0;
+        result.passed = result.number >= threshold;
+        result.message += text("; off by ", off / error, " standard errors; ", significance.meaning(result.number));
+    }
     return result;
+}
+
+}  // namespace detail
+
+// estimate() yields independent estimates: numbers, or colours (glm::vec), of which each component is tested and the
+// worst reported; answer is of the same kind. Two-sided z-test; one estimate that is not finite fails. number: the
+// p-value, 0 or 1 for estimates without variance.
+template <class Estimate, class Answer>
+[[nodiscard]] UnbiasedResult unbiased(Estimate&& estimate, const Answer& answer, const UnbiasedOptions& options = {}) {
+    using Channels = detail::Channels<std::remove_cvref_t<decltype(estimate())>>;
+    constexpr int channels = Channels::number;
+    static_assert(detail::Channels<Answer>::number == channels, "the answer has as many components as an estimate");
+    std::array<RunningMoments<double>, channels> moments;
+    for (std::int64_t i = 0; i < options.samples; ++i) {
+        const auto value = estimate();
+        for (int channel = 0; channel < channels; ++channel) {
+            moments[static_cast<std::size_t>(channel)].add(Channels::get(value, channel));
+        }
+    }
+
+    Significance significance = options.significance;
+    significance.family *= channels;
+    UnbiasedResult worst;
+    for (int channel = 0; channel < channels; ++channel) {
+        const double exact = detail::Channels<Answer>::get(answer, channel);
+        const double rounding = 4 * double{std::numeric_limits<typename Channels::Scalar>::epsilon()} * std::abs(exact);
+        auto law = detail::z_test(moments[static_cast<std::size_t>(channel)], exact, options.answer_error + rounding,
+                                  significance);
+        if (channels > 1) law.message = detail::text("component ", channel, ": ") + law.message;
+        const double error = std::fmax(law.relative_standard_error, worst.relative_standard_error);
+        const double bias = std::fmax(law.smallest_bias_seen, worst.smallest_bias_seen);
+        if (channel == 0 || (worst.passed && (!law.passed || law.number < worst.number))) worst = law;
+        worst.relative_standard_error = error;
+        worst.smallest_bias_seen = bias;
+    }
+    return worst;
 }
 
 }  // namespace lumis::testing
