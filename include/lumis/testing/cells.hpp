@@ -37,21 +37,22 @@ class Cells {
     }
 
     // The integral of the density over each cell.
-    [[nodiscard]] std::vector<double> masses(const Density<Point>& density, Accuracy accuracy) const {
-        const auto f = per_area_of_square(density);
-        std::vector<double> result;
-        for (std::size_t i = 0; i + 1 < s_.size(); ++i) {
-            for (std::size_t j = 0; j + 1 < t_.size(); ++j) {
-                result.push_back(integrate(f, std::span{s_}.subspan(i, 2), t_[j], t_[j + 1], accuracy));
-            }
-        }
+    [[nodiscard]] std::vector<Integral> masses(const Density<Point>& density, Accuracy accuracy) const {
+        std::vector<Integral> result;
+        for (std::size_t cell = 0; cell < size(); ++cell) result.push_back(mass(cell, density, accuracy));
         return result;
     }
 
+    // The integral of the density over one of them.
+    [[nodiscard]] Integral mass(std::size_t cell, const Density<Point>& density, Accuracy accuracy) const {
+        const std::size_t i = cell / (t_.size() - 1), j = cell % (t_.size() - 1);
+        return integrate(per_area_of_square(density), std::span{s_}.subspan(i, 2), t_[j], t_[j + 1], accuracy);
+    }
+
     // The integral of the density over all cells; whole lines along s are taken at once, which leaves fewer corners.
-    [[nodiscard]] double mass(const Density<Point>& density, Accuracy accuracy) const {
+    [[nodiscard]] Integral mass(const Density<Point>& density, Accuracy accuracy) const {
         const auto f = per_area_of_square(density);
-        double sum = 0;
+        Integral sum;
         for (std::size_t j = 0; j + 1 < t_.size(); ++j) sum += integrate(f, s_, t_[j], t_[j + 1], accuracy);
         return sum;
     }

@@ -17,8 +17,22 @@
 namespace lumis::testing {
 
 struct Accuracy {
-    double absolute;  // halving a piece stops when its estimated error is below this
-    int depth = 10;   // or after so many halvings: a density that is rough from rounding never gets there
+    double absolute;           // halving a piece stops when its estimated error is below this
+    int depth = 10;            // or after so many halvings: a density that is rough from rounding never gets there
+    double evaluations = 1e8;  // or of the whole, after so many evaluations of the density
+};
+
+// An integral, and by how much it may be off: the sum of what Gauss and Kronrod differ by in each piece. A feature of the
+// density that lies between all nodes is not in it.
+struct Integral {
+    double value{}, error{};
+
+    Integral& operator+=(const Integral& other) noexcept {
+        value += other.value;
+        error += other.error;
+        return *this;
+    }
+    friend Integral operator+(Integral a, const Integral& b) noexcept { return a += b; }
 };
 
 namespace detail {
@@ -34,11 +48,7 @@ inline constexpr std::size_t nodes = 15;
     return i < 7 ? centre - half * Kronrod::abscissa()[7 - i] : centre + half * Kronrod::abscissa()[i - 7];
 }
 
-struct Estimate {
-    double integral, error;
-};
-
-[[nodiscard]] inline Estimate from_values(double a, double b, const std::array<double, nodes>& values) {
+[[nodiscard]] inline Integral from_values(double a, double b, const std::array<double, nodes>& values) {
     double kronrod = 0, gauss = 0;
     for (std::size_t i = 0; i < nodes; ++i) {
         const std::size_t from_centre = i < 7 ? 7 - i : i - 7;
@@ -49,28 +59,21 @@ struct Estimate {
     return {half * kronrod, half * std::abs(kronrod - gauss)};
 }
 
-// settled(level) may ask for more halvings where the error estimate is not to be trusted.
-template <class F, class Settled>
-[[nodiscard]] double adaptive(const F& f, double a, double b, Accuracy accuracy, const Settled& settled,
-                              int level = 0) {
+// is_good(error, level): whether a piece of that estimated error, that many halvings deep, is not halved again.
+template <class F, class IsGood>
+[[nodiscard]] Integral adaptive(const F& f, double a, double b, const IsGood& is_good, int level = 0) {
     std::array<double, nodes> values;
     for (std::size_t i = 0; i < nodes; ++i) values[i] = f(node(a, b, i));
     const auto estimate = from_values(a, b, values);
-    if ((estimate.error <= accuracy.absolute && settled(level)) || level == accuracy.depth) return estimate.integral;
-    return adaptive(f, a, (a + b) / 2, accuracy, settled, level + 1) +
-           adaptive(f, (a + b) / 2, b, accuracy, settled, level + 1);
-}
-
-template <class F>
-[[nodiscard]] double adaptive(const F& f, double a, double b, Accuracy accuracy) {
-    return adaptive(f, a, b, accuracy, [](int) { return true; });
+    if (is_good(estimate.error, level)) return estimate;
+    return adaptive(f, a, (a + b) / 2, is_good, level + 1) + adaptive(f, (a + b) / 2, b, is_good, level + 1);
 }
 
 // With both ends slowed down, x = a + (b - a)(3 y^2 - 2 y^3), which takes an inverse square root there away.
-template <class F>
-[[nodiscard]] double adaptive_between_edges(const F& f, double a, double b, Accuracy accuracy) {
+template <class F, class IsGood>
+[[nodiscard]] Integral adaptive_between_edges(const F& f, double a, double b, const IsGood& is_good) {
     const auto slowed = [&](double y) { return 6 * y * (1 - y) * (b - a) * f(a + (b - a) * y * y * (3 - 2 * y)); };
-    return adaptive(slowed, 0, 1, accuracy);
+    return adaptive(slowed, 0, 1, is_good);
 }
 
 // Where f turns from positive to zero or back, between a and b of which it is one at each.
@@ -83,8 +86,8 @@ template <class F>
     return (a + b) / 2;
 }
 
-template <class F>
-[[nodiscard]] double integrate_line(const F& f, double a, double b, Accuracy accuracy) {
+template <class F, class IsGood>
+[[nodiscard]] Integral integrate_line(const F& f, double a, double b, const IsGood& is_good) {
     std::array<double, nodes> values;
     std::vector<double> edges{a};
     double before = a, before_value = f(a);
@@ -102,14 +105,14 @@ template <class F>
     look(b, last);
     if (edges.size() == 1) {
         const auto estimate = from_values(a, b, values);
-        if (estimate.error <= accuracy.absolute) return estimate.integral;
-        return adaptive(f, a, b, accuracy);
+        if (is_good(estimate.error, 0)) return estimate;
+        return adaptive(f, a, b, is_good);
     }
     edges.push_back(b);
-    double sum = 0;
+    Integral sum;
     bool positive = first > 0;
     for (std::size_t i = 0; i + 1 < edges.size(); ++i, positive = !positive) {
-        if (positive) sum += adaptive_between_edges(f, edges[i], edges[i + 1], accuracy);
+        if (positive) sum += adaptive_between_edges(f, edges[i], edges[i + 1], is_good);
     }
     return sum;
 }
@@ -118,27 +121,39 @@ template <class F>
 
 // The integral of f(s, t) over s from the first to the last of s_lines, across which f may jump, and t from t0 to t1. A
 // value that is not finite makes it NaN.
-[[nodiscard]] inline double integrate(const std::function<double(double, double)>& f, std::span<const double> s_lines,
-                                      double t0, double t1, Accuracy accuracy) {
-    const Accuracy along{accuracy.absolute / (t1 - t0) / 4, accuracy.depth};
+[[nodiscard]] inline Integral integrate(const std::function<double(double, double)>& f, std::span<const double> s_lines,
+                                        double t0, double t1, Accuracy accuracy) {
     bool poisoned = false, ragged = false;
+    double line_errors = 0, lines = 0, evaluations = 0;
+    const auto is_last = [&](int level) { return level == accuracy.depth || evaluations >= accuracy.evaluations; };
+    const auto is_good_along = [&, allowed = accuracy.absolute / (t1 - t0) / 4](double error, int level) {
+        return error <= allowed || is_last(level);
+    };
     const auto across = [&](double t) {
         const auto line = [&](double s) {
             const double value = f(s, t);
+            ++evaluations;
             poisoned = poisoned || !std::isfinite(value);
             ragged = ragged || !(value > 0);
             return std::isfinite(value) ? value : 0.0;
         };
-        double sum = 0;
+        Integral sum;
         for (std::size_t i = 0; i + 1 < s_lines.size(); ++i) {
-            sum += detail::integrate_line(line, s_lines[i], s_lines[i + 1], along);
+            sum += detail::integrate_line(line, s_lines[i], s_lines[i + 1], is_good_along);
         }
-        return sum;
+        line_errors += sum.error;
+        ++lines;
+        return sum.value;
     };
-    // A corner of the support may reach in between two of the lines: look closer before believing in nothing.
-    const auto settled = [&](int level) { return !std::exchange(ragged, false) || level >= 2; };
-    const double integral = detail::adaptive(across, t0, t1, accuracy, settled);
-    return poisoned ? std::numeric_limits<double>::quiet_NaN() : integral;
+    const auto is_good_across = [&](double error, int level) {
+        // A corner of the support may reach in between two of the lines: look closer before believing in nothing.
+        const bool closer = std::exchange(ragged, false) && level < 2;
+        return (error <= accuracy.absolute && !closer) || is_last(level);
+    };
+    Integral result = detail::adaptive(across, t0, t1, is_good_across);
+    result.error += (t1 - t0) * line_errors / lines;
+    if (poisoned) result.value = std::numeric_limits<double>::quiet_NaN();
+    return result;
 }
 
 }  // namespace lumis::testing
