@@ -25,6 +25,9 @@ TEST_CASE("agreement refuses", "[laws]") {
     };
     REQUIRE(laws::agreement(Broken{Cosine{}, same_sample, same_pdf}).passed);
     refused(Broken{Cosine{}, same_sample, [](const V&, double pdf) { return 2 * pdf; }}, "drawn with density");
+    refused(Broken{Cosine{}, same_sample, [](const V&, double pdf) { return pdf / 2; }}, "by the same factor 2 at all");
+    refused(Broken{Cosine{}, same_sample, [](const V& w, double pdf) { return pdf / (1 + w.z); }},
+            "by factors from 1.");
     refused(Broken{Cosine{}, same_sample, [](const V&, double pdf) { return (1 + 1e-10) * pdf; }},
             "drawn with density");
     refused(Broken{Cosine{}, same_sample, [](const V& w, double pdf) { return w.z < 0.01 ? 0 : pdf; }}, "but pdf is 0");

@@ -2,8 +2,11 @@
 #pragma once
 
 #include "subject.hpp"
+#include "visibility.hpp"
 #include <lumis/lumis.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <random>
 #include <type_traits>
@@ -26,12 +29,18 @@ std::vector<std::pair<const char*, std::vector<T>>> weights() {
             {"random", random}};
 }
 
+// The one of n equal cells of [0, 1] that holds x.
+inline std::size_t cell(double x, std::size_t n) {
+    return std::min(static_cast<std::size_t>(x * static_cast<double>(n)), n - 1);
+}
+
 struct PiecewiseConstant1D {
     template <class T>
     static auto make() {
         std::vector<Subject<lumis::PiecewiseConstant1D<T>>> result;
         for (const auto& [name, values] : weights<T>()) {
             result.push_back({name, lumis::PiecewiseConstant1D{values}, lumis::testing::interval_chart(values.size())});
+            result.back().integrand = [values = values](double x) { return values[cell(x, values.size())] > 0; };
         }
         return result;
     }
@@ -45,6 +54,9 @@ struct PiecewiseConstant2D {
             const std::size_t height = values.size() % 2 == 0 ? 2 : 1, width = values.size() / height;
             result.push_back(
                 {name, lumis::PiecewiseConstant2D{width, height, values}, lumis::testing::square_chart(width, height)});
+            result.back().integrand = [=, values = values](const glm::dvec2& x) {
+                return values[cell(x.y, height) * width + cell(x.x, width)] > 0;
+            };
         }
         return result;
     }
@@ -56,6 +68,7 @@ struct AliasTable {
         std::vector<Subject<lumis::AliasTable<T>>> result;
         for (const auto& [name, values] : weights<T>()) {
             result.push_back({name, lumis::AliasTable{values}, lumis::testing::index_chart(values.size())});
+            result.back().integrand = [values = values](std::size_t i) { return values[i] > 0; };
         }
         return result;
     }
@@ -67,17 +80,21 @@ struct LightSet {
     static auto make() {
         using Light = lumis::AreaLight<lumis::Parallelogram<T>, lumis::BySolidAngle>;
         using V = glm::vec<3, T>;
-        const auto light = [](const glm::dvec3& corner, const glm::dvec3& edge_u, const glm::dvec3& edge_v) {
-            return Light{lumis::Parallelogram<T>{V(corner), V(edge_u), V(edge_v)}, V(T(0))};
+        const auto shape = [](const glm::dvec3& corner, const glm::dvec3& edge_u, const glm::dvec3& edge_v) {
+            return lumis::Parallelogram<T>{V(corner), V(edge_u), V(edge_v)};
         };
-        const std::vector<Light> lights{
-            light({-1, -1, 1}, {1.5, 0, 0}, {0, 1.5, 0}), light({-2, -2, -1}, {4, 0, 0}, {0, 4, 0}),
-            light({0, 0, 2}, {2, 0, 0}, {0.5, 2, 0}), light({1, -1, -0.5}, {0, 2, 0}, {0, 0, 1})};
+        const std::array shapes{shape({-1, -1, 1}, {1.5, 0, 0}, {0, 1.5, 0}), shape({-2, -2, -1}, {4, 0, 0}, {0, 4, 0}),
+                                shape({0, 0, 2}, {2, 0, 0}, {0.5, 2, 0}), shape({1, -1, -0.5}, {0, 2, 0}, {0, 0, 1})};
+        std::vector<Light> lights;
+        for (const auto& s : shapes) lights.push_back(Light{s, V(T(0))});
         const std::vector<T> weights{T(1), T(0), T(2), T(0.5)};
         using S = decltype(lumis::LightSet{std::vector<Light>{}, std::vector<T>{}});
         std::vector<Subject<S>> result;
         result.push_back({"", lumis::LightSet{std::vector<Light>{lights}, std::vector<T>{weights}},
                           lumis::testing::sphere_chart(), 1.0, 3e-5});
+        result.back().integrand = [=](const glm::dvec3& w) {
+            return meets(shapes[0], {})(w) || meets(shapes[2], {})(w) || meets(shapes[3], {})(w);
+        };
         return result;
     }
 };
@@ -87,13 +104,17 @@ struct Mixture {
     template <class T>
     static auto make() {
         using V = glm::vec<3, T>;
-        const lumis::AreaLight triangle{lumis::Triangle<T>{V(0, 0, 1), V(1, 0, 1), V(0, 1, 1)}, V(T(0))};
-        const lumis::AreaLight<lumis::Sphere<T>, lumis::BySolidAngle> sphere{
-            lumis::Sphere<T>{V(T(1.5), T(0.5), T(0.5)), T(1)}, V(T(0))};
+        const lumis::Triangle<T> three_corners{V(0, 0, 1), V(1, 0, 1), V(0, 1, 1)};
+        const lumis::Sphere<T> ball{V(T(1.5), T(0.5), T(0.5)), T(1)};
+        const lumis::AreaLight triangle{three_corners, V(T(0))};
+        const lumis::AreaLight<lumis::Sphere<T>, lumis::BySolidAngle> sphere{ball, V(T(0))};
         const lumis::Mixture mixture{lumis::choose(0.5, triangle), lumis::choose(0, lumis::CosineHemisphere<T>{}),
                                      lumis::choose(0.4, sphere)};
         std::vector<Subject<std::remove_const_t<decltype(mixture)>>> result;
         result.push_back({"", mixture, lumis::testing::sphere_chart(), 0.9, 1e-5});
+        result.back().integrand = [=](const glm::dvec3& w) {
+            return meets(three_corners, {})(w) || meets(ball, {})(w);
+        };
         return result;
     }
 };

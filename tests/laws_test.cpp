@@ -44,6 +44,13 @@ TEMPLATE_LIST_TEST_CASE("sample and pdf agree", "[laws]", Strategies) {
     check_each<TestType>([](const auto& subject) { return laws::agreement(subject.strategy, subject.agreement); });
 }
 
+TEMPLATE_LIST_TEST_CASE("the density covers the integrand", "[laws]", Strategies) {
+    check_each<TestType>([](const auto& subject) {
+        REQUIRE(subject.integrand);
+        return laws::covers(subject.strategy, subject.integrand, subject.chart);
+    });
+}
+
 TEMPLATE_LIST_TEST_CASE("a batch agrees with the single call", "[laws]", Strategies) {
     check_each<TestType>([](const auto& subject) {
         if constexpr (laws::BatchStrategy<std::remove_cvref_t<decltype(subject.strategy)>>) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "subject.hpp"
+#include "visibility.hpp"
 #include <lumis/lumis.hpp>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -54,6 +56,7 @@ struct TriangleByArea {
             const auto [chart, blur] = view_of((a + b + c) / 3.0 - reference, (b - a) / 2.0, (c - a) / 2.0);
             result.push_back(
                 {name, {triangle, glm::vec<3, T>(reference)}, chart, 1.0, blur * std::numeric_limits<T>::epsilon()});
+            result.back().integrand = meets(triangle, reference);
         }
         return result;
     }
@@ -78,6 +81,7 @@ struct ParallelogramByArea {
             const lumis::Parallelogram<T> shape{glm::vec<3, T>(corner), glm::vec<3, T>(edge_u), glm::vec<3, T>(edge_v)};
             const auto [chart, blur] = view_of(corner + (edge_u + edge_v) / 2.0, edge_u / 2.0, edge_v / 2.0);
             result.push_back({name, {shape, {}}, chart, 1.0, blur * std::numeric_limits<T>::epsilon()});
+            result.back().integrand = meets(shape, {});
         }
         return result;
     }
@@ -104,6 +108,7 @@ struct DiskByArea {
             const lumis::Disk<T> disk{glm::vec<3, T>(center), glm::vec<3, T>(normal), static_cast<T>(radius)};
             const auto [chart, blur] = view_of(center, radius * frame.tangent(), radius * frame.bitangent());
             result.push_back({name, {disk, {}}, chart, 1.0, blur * std::numeric_limits<T>::epsilon()});
+            result.back().integrand = meets(disk, {});
         }
         return result;
     }
@@ -126,9 +131,11 @@ auto spheres(Probability probability, bool unbounded_at_edge) {
                           probability(half_angle),
                           20 * std::numeric_limits<T>::epsilon() / half_angle,
                           {.unbounded_at_edge = unbounded_at_edge}});
+        result.back().integrand = meets(sphere, {});
     }
     const lumis::Sphere<T> around{glm::vec<3, T>(T(0.5) * glm::vec<3, T>(sphere_direction)), T(1)};
     result.push_back({"from inside", S{around, glm::vec<3, T>(T(0))}, lumis::testing::lobe_chart(sphere_direction, 2)});
+    result.back().integrand = lumis::testing::everywhere;
     return result;
 }
 
@@ -146,6 +153,44 @@ struct SphereBySolidAngle {
     }
 };
 
+// Where a map's luminance is not 0. Compensated, a map leaves to others what is not above its mean.
+template <class T>
+WhereDirections lit(int width, int height, const std::vector<T>& texels, bool nearest, bool compensated) {
+    // The sum of f(dx, dy) times the luminance of the texel and its neighbours.
+    const auto around = [=](int x, int y, auto f) {
+        double sum = 0;
+        for (int dx = -1; dx <= 1; ++dx) {
+            for (int dy = -1; dy <= 1; ++dy) {
+                const int column = (x + dx + width) % width, row = std::clamp(y + dy, 0, height - 1);
+                sum += f(dx, dy) * double{texels[static_cast<std::size_t>(row * width + column)]};
+            }
+        }
+        return sum;
+    };
+    // A texel's mean, into which the bilinear function mixes 1/8 from either side.
+    const auto mean_of_texel = [=](int x, int y) {
+        const auto weight = [=](int d) { return nearest ? (d == 0 ? 1.0 : 0.0) : (d == 0 ? 0.75 : 0.125); };
+        return around(x, y, [=](int dx, int dy) { return weight(dx) * weight(dy); });
+    };
+    double mean = 0;
+    for (int y = 0; y < height; ++y) {
+        const double half = std::numbers::pi / 2 / height,
+                     share = std::sin(half * (2 * y + 1)) * std::sin(half) / width;
+        for (int x = 0; x < width; ++x) mean += share * mean_of_texel(x, y);
+    }
+    return [=](const glm::dvec3& w) {
+        const double u = (0.5 + std::atan2(w.z, w.x) / (2 * std::numbers::pi)) * width;
+        const double v = std::acos(std::clamp(w.y, -1.0, 1.0)) / std::numbers::pi * height;
+        const int x = static_cast<int>(std::floor(u)), y = static_cast<int>(std::floor(v));
+        if (compensated && texels.size() > 1) return mean_of_texel(x, y) > (1 + 1e-5) * mean;
+        const auto tent = [](double d) { return std::max(1 - std::abs(d), 0.0); };
+        return around(x, y, [=](int dx, int dy) {
+                   if (nearest) return dx == 0 && dy == 0 ? 1.0 : 0.0;
+                   return tent(u - (x + dx + 0.5)) * tent(v - (y + dy + 0.5));
+               }) > 0;
+    };
+}
+
 template <bool mis_compensation, template <class> class Map = lumis::EnvironmentMap>
 struct EnvironmentMaps {
     template <class T>
@@ -161,6 +206,7 @@ struct EnvironmentMaps {
                      1.0,
                      0,
                      {.rounding = 0, .tolerance = 0}});
+                result.back().integrand = lit<T>(width, height, texels, nearest, mis_compensation);
             }
         };
         std::mt19937 engine{5};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "subject.hpp"
+#include "visibility.hpp"
 #include <lumis/lumis.hpp>
 
 #include <glm/common.hpp>
@@ -30,14 +31,18 @@ inline const std::vector<glm::dvec2> alphas{{1e-4, 1e-4}, {0.01, 0.01}, {0.1, 0.
 inline const std::vector<glm::dvec3> views{direction(1, 0), direction(0.7, 0.4), direction(0.1, 2.5),
                                            direction(0.01, -2)};
 
-// make(wo, alpha) for every view and roughness.
+// make(wo, alpha) for every view and roughness; the integrand, given wo, is a BSDF's unless stated.
 template <class T, class Make>
-auto over_roughness(Make make) {
+auto over_roughness(
+    Make make, WhereDirections (*integrand)(const glm::dvec3&) = [](const glm::dvec3&) -> WhereDirections {
+        return above_horizon;
+    }) {
     std::vector<decltype(make(glm::dvec3{}, glm::dvec2{}))> result;
     for (const auto& wo : views) {
         for (const auto& alpha : alphas) {
             result.push_back(make(wo, alpha));
             result.back().label = label("wo ", wo, ", alpha ", alpha);
+            result.back().integrand = integrand(wo);
         }
     }
     return result;
@@ -46,21 +51,24 @@ auto over_roughness(Make make) {
 struct CosineHemisphere {
     template <class T>
     static std::vector<Subject<lumis::CosineHemisphere<T>>> make() {
-        return {{"", {}, lumis::testing::sphere_chart()}};
+        return {{.label = "", .strategy = {}, .chart = lumis::testing::sphere_chart(), .integrand = above_horizon}};
     }
 };
 
 struct UniformHemisphere {
     template <class T>
     static std::vector<Subject<lumis::UniformHemisphere<T>>> make() {
-        return {{"", {}, lumis::testing::sphere_chart()}};
+        return {{.label = "", .strategy = {}, .chart = lumis::testing::sphere_chart(), .integrand = above_horizon}};
     }
 };
 
 struct UniformSphere {
     template <class T>
     static std::vector<Subject<lumis::UniformSphere<T>>> make() {
-        return {{"", {}, lumis::testing::sphere_chart()}};
+        return {{.label = "",
+                 .strategy = {},
+                 .chart = lumis::testing::sphere_chart(),
+                 .integrand = lumis::testing::everywhere}};
     }
 };
 
@@ -71,6 +79,7 @@ struct GgxNdf {
         for (const auto& alpha : alphas) {
             const lumis::GgxNdf<T> normals{glm::vec<2, T>(alpha)};
             result.push_back({label("alpha ", alpha), normals, normals_chart(alpha)});
+            result.back().integrand = above_horizon;
         }
         return result;
     }
@@ -79,9 +88,15 @@ struct GgxNdf {
 struct GgxVndf {
     template <class T>
     static auto make() {
-        return over_roughness<T>([](const glm::dvec3& wo, const glm::dvec2& alpha) {
-            return Subject<lumis::GgxVndf<T>>{"", {glm::vec<3, T>(wo), glm::vec<2, T>(alpha)}, normals_chart(alpha)};
-        });
+        const auto visible_normals = [](const glm::dvec3& wo) -> WhereDirections {
+            return [wo](const glm::dvec3& wm) { return wm.z > 0 && glm::dot(wo, wm) > 0; };
+        };
+        return over_roughness<T>(
+            [](const glm::dvec3& wo, const glm::dvec2& alpha) {
+                return Subject<lumis::GgxVndf<T>>{
+                    "", {glm::vec<3, T>(wo), glm::vec<2, T>(alpha)}, normals_chart(alpha)};
+            },
+            visible_normals);
     }
 };
 
@@ -133,6 +148,7 @@ struct ReflectedCosine {
         for (const auto& wo : {direction(1, 0), direction(0.4, 1), direction(0.05, -1)}) {
             const auto chart = lumis::testing::reflected_chart(wo, lumis::testing::sphere_chart());
             result.push_back({label("wo ", wo), {glm::vec<3, T>(wo), Normals{}}, chart, std::nullopt});
+            result.back().integrand = above_horizon;
         }
         return result;
     }
@@ -158,6 +174,7 @@ struct GgxReflectionInFrame {
                                   std::nullopt,
                                   0,
                                   {.rounding = 8, .length = 6}});
+                result.back().integrand = [normal](const glm::dvec3& w) { return glm::dot(w, normal) > 0; };
             }
         }
         return result;
@@ -178,6 +195,7 @@ struct CoatedDiffuse {
                               lumis::Mixture{lumis::choose(0.25, lumis::CosineHemisphere<T>{}),
                                              lumis::choose(0.75, lumis::GgxReflection<T>{coat})},
                               lumis::testing::reflected_chart(wo, normals_chart(glm::dvec2{2 * alpha})), std::nullopt});
+            result.back().integrand = above_horizon;
         }
         return result;
     }

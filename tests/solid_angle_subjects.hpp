@@ -3,6 +3,7 @@
 
 #include "light_subjects.hpp"
 #include "subject.hpp"
+#include "visibility.hpp"
 #include <lumis/lumis.hpp>
 
 #include <limits>
@@ -49,6 +50,7 @@ struct TriangleBySolidAngle {
                               {},
                               few_digits,
                               batch_distance(light)});
+            result.back().integrand = meets(triangle, reference);
         }
         return result;
     }
@@ -92,6 +94,7 @@ struct ParallelogramBySolidAngle {
                               {},
                               round_trip,
                               batch_distance(light)});
+            result.back().integrand = meets(shape, {});
         }
         return result;
     }

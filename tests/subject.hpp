@@ -3,10 +3,12 @@
 
 #include <lumis/testing/agreement.hpp>
 #include <lumis/testing/charts.hpp>
+#include <lumis/testing/coverage.hpp>
 #include <lumis/testing/points.hpp>
 #include <lumis/testing/result.hpp>
 #include <lumis/testing/round_trip.hpp>
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -25,6 +27,8 @@ struct Subject {
     lumis::testing::RoundTripOptions round_trip{};
     double batch_distance =
         agreement.rounding;  // between what a batch and the single call draw, in units in the last place
+    // Where an integrand that the strategy is made for is not 0; every subject states it.
+    std::function<bool(const lumis::testing::InDouble<typename S::Point>&)> integrand{};
 };
 
 template <class... Parts>

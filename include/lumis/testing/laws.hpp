@@ -1,6 +1,7 @@
 // Laws that every strategy keeps, for the tests here and for users' own: one include, one line a law, any framework.
 //     agreement(strategy)                 what sample draws, pdf agrees with
 //     integrates(strategy, chart)         the density integrates to the probability that something is drawn
+//     covers(strategy, f, chart)          the density is positive wherever the integrand f is not 0
 //     chi_square(strategy, chart)         samples are distributed as the density says
 //     jacobian(strategy)                  the density is 1 / |det J| of sample
 //     round_trip(strategy)                invert undoes sample
@@ -12,12 +13,13 @@
 //     unbiased(estimate, answer)          an estimator's mean is the answer
 //     unbiased_under_every_heuristic(f, answer, factors, options, strategies...)
 //                                         the same, of strategies combined in all ways, or of an estimator of one's own
-// Each yields a LawResult. Needs Boost.Math; nothing else in Lumis includes this folder.
+// Each yields a LawResult, which tests as a bool and prints itself. Needs Boost.Math; nothing else in Lumis includes this folder.
 #pragma once
 
 #include "lumis/testing/agreement.hpp"
 #include "lumis/testing/charts.hpp"
 #include "lumis/testing/chi_square.hpp"
+#include "lumis/testing/coverage.hpp"
 #include "lumis/testing/delta.hpp"
 #include "lumis/testing/every_heuristic.hpp"
 #include "lumis/testing/integration.hpp"
