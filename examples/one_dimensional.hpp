@@ -58,7 +58,8 @@ struct Gaussian {
     }
     [[nodiscard]] T pdf(T x) const noexcept {
         const T z = (x - mean) / deviation;
-        return std::exp(-z * z / 2) * std::numbers::inv_sqrtpi_v<T> / (deviation * std::numbers::sqrt2_v<T>);
+        const T scale = std::numbers::inv_sqrtpi_v<T> / (deviation * std::numbers::sqrt2_v<T>);
+        return lumis::density_or_zero(std::exp(-z * z / 2) * scale);
     }
 };
 
