@@ -4,6 +4,8 @@
 // exceeds double's range: deviations beyond 1e154, which no float reaches.
 #pragma once
 
+#include "lumis/core/real.hpp"
+
 #include <cmath>
 #include <concepts>
 #include <cstdint>
@@ -22,13 +24,13 @@ class RunningMoments {
         }
         ++count_;
         const auto count = static_cast<double>(count_);
-        const double from_old_mean = double{value} - mean_;
+        const double from_old_mean = real::rounded(double{value} - mean_);
         if (std::isfinite(from_old_mean)) {
             mean_ += from_old_mean / count;
         } else {
             mean_ = weighted_mean(mean_, count - 1, double{value}, 1);
         }
-        squares_ += from_old_mean * (double{value} - mean_);
+        squares_ += from_old_mean * real::rounded(double{value} - real::rounded(mean_));
     }
 
     // As if everything added to `other` had been added here.
@@ -40,13 +42,13 @@ class RunningMoments {
             return;
         }
         const auto mine = static_cast<double>(count_), theirs = static_cast<double>(other.count_);
-        const double between = other.mean_ - mean_;
+        const double between = real::rounded(other.mean_ - mean_);
         if (std::isfinite(between)) {
             mean_ += between * (theirs / (mine + theirs));
         } else {
             mean_ = weighted_mean(mean_, mine, other.mean_, theirs);
         }
-        squares_ += other.squares_ + between * between * (mine * theirs / (mine + theirs));
+        squares_ += other.squares_ + between * between * real::rounded(mine * theirs / (mine + theirs));
         count_ += other.count_;
     }
 
@@ -69,7 +71,7 @@ class RunningMoments {
     // 1e308 and -1e308 overflows.
     static double weighted_mean(double a, double a_size, double b, double b_size) noexcept {
         const double size = a_size + b_size;
-        return a * (a_size / size) + b * (b_size / size);
+        return real::rounded(a * real::rounded(a_size / size)) + real::rounded(b * real::rounded(b_size / size));
     }
 
     std::uint64_t count_{};
