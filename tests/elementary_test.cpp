@@ -148,12 +148,34 @@ TEMPLATE_TEST_CASE("turns at the axes, at the origin and of NaN", "[elementary]"
     CHECK(lumis::turn_of(T(-3), T(0)) == T(0.5));
     CHECK(lumis::turn_of(T(0), T(-4)) == T(0.75));
     CHECK(lumis::turn_of(T(0), T(0)) == 0);
+    CHECK(lumis::signed_turn_of(T(0), T(0)) == 0);  // not NaN, which turn_of makes 0
+    CHECK(lumis::signed_turn_of(T(-0.0), T(0)) == T(0.5));
     CHECK(lumis::turn_of(T(1), -least) == 0);  // not 1
     const T least_normal = std::numeric_limits<T>::min();
     CHECK(std::abs(lumis::turn_of(least_normal, least_normal) - T(0.125)) <= std::numeric_limits<T>::epsilon() / 4);
     CHECK(std::isnan(lumis::signed_turn_of(nan, T(1))));
     CHECK(std::isnan(lumis::signed_turn_of(T(1), nan)));
     CHECK(std::isnan(lumis::signed_turn_of(T(0), nan)));
+}
+
+// A small negative turn, added to 1, rounds to 1 from half a unit in the last place below on.
+TEMPLATE_TEST_CASE("a turn is below 1, however small a step before the whole turn", "[elementary]", float, double) {
+    using T = TestType;
+    const T below_one = 1 - std::numeric_limits<T>::epsilon() / 2;
+    int wrapped = 0;
+    for (int halvings = 1; halvings < 140; ++halvings) {
+        for (const T x : {T(1), T(1.25), T(1.75)}) {
+            const T y = -std::ldexp(T(1), -halvings), turn = lumis::turn_of(x, y);
+            INFO(x << ", " << y);
+            CHECK((turn >= 0 && turn <= below_one));
+            const Wide exact = 1 + std::atan2(Wide{y}, Wide{x}) / tau;
+            CHECK(std::abs(std::remainder(Wide{turn} - exact, Wide{1})) <= epsilon<T>);
+            wrapped += turn == 0;
+            CHECK(lumis::turn_of(-x, y) > T(0.5) - epsilon<T>);
+            CHECK(lumis::turn_of(-x, -y) <= T(0.5));
+        }
+    }
+    CHECK(wrapped > 100);
 }
 
 TEMPLATE_TEST_CASE("turn_of inverts unit_circle", "[elementary]", float, double) {

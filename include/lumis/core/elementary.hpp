@@ -1,6 +1,7 @@
 // Sine and cosine, arc cosine and arc tangent without branches or tables, so that one definition serves a number and
-// lanes of numbers, and compilers inline it. The polynomials are minimax in relative error (Remez); worst errors of the
-// functions as a whole are stated with each, in units of epsilon (2^-23, 2^-52), and measured by elementary_test.
+// lanes of numbers, and compilers inline it. The polynomials are minimax in relative error; tests/elementary/remez.py makes
+// them. The worst errors of the functions as a whole stand with each, in units of epsilon (2^-23, 2^-52), as elementary_test
+// measures them.
 #pragma once
 
 #include "lumis/core/real.hpp"
@@ -26,6 +27,7 @@ template <Real R, std::size_t N>
     return sum;
 }
 
+// The polynomials: what they approximate, over which range, and how well at most (relative).
 template <std::floating_point T>
 struct Minimax;
 
@@ -71,48 +73,61 @@ struct Minimax<double> {
 }  // namespace detail
 
 // (cos, sin) of 2 pi turn, for a turn in [-1/4, 1/4]: the right half of the unit circle. Both keep their relative
-// accuracy where they are small.
+// accuracy where they are small: within 1.75 epsilon.
 template <Real R>
 [[nodiscard, gnu::always_inline]] inline glm::vec<2, R> half_circle(R turn) noexcept {
     using P = detail::Minimax<scalar_of<R>>;
+    turn = real::rounded(turn);
     const R square = turn * turn;
-    return {real::rounded(R(1 - 4 * turn)) * real::rounded(R(1 + 4 * turn)) * detail::polynomial(square, P::cosine),
-            turn * detail::polynomial(square, P::sine)};
+    // 1 - 16 turn^2, the cosine's zeros, as a product: neither factor cancels.
+    const R zeros = real::rounded(1 - 4 * turn) * real::rounded(1 + 4 * turn);
+    return {zeros * detail::polynomial(square, P::cosine), turn * detail::polynomial(square, P::sine)};
 }
 
-// (cos, sin) of 2 pi turn, for a turn in [0, 1]. No multiple of pi is rounded on the way: 2 pi turn alone would cost
-// float up to four units in the last place. Turns that are points of the uniforms' lattice are folded without rounding.
+// (cos, sin) of 2 pi turn, for a turn in [0, 1], within 1.75 epsilon of 1. No multiple of pi is rounded on the way: 2 pi
+// turn alone would cost float up to four units in the last place.
 template <Real R>
 [[nodiscard, gnu::always_inline]] inline glm::vec<2, R> unit_circle(R turn) noexcept {
-    const R to_half = real::rounded(R(scalar_of<R>(0.5) - turn));
-    const auto folded = half_circle<R>(real::rounded(R(real::abs(to_half) - scalar_of<R>(0.25))));
-    return {folded.y, real::copysign(folded.x, to_half)};
+    // Folded at half a turn, where the sine changes its sign, and shifted by a quarter, which turns sine into cosine. Both
+    // differences are exact for turns that are points of the uniforms' lattice.
+    const R to_half = real::rounded(scalar_of<R>(0.5) - real::rounded(turn));
+    const auto shifted = half_circle<R>(real::abs(to_half) - scalar_of<R>(0.25));
+    return {shifted.y, real::copysign(shifted.x, to_half)};
 }
 
-// The fraction of a turn, in [-1/2, 1/2], at which (x, y) lies. (0, 0) gives 0, a NaN NaN. Folding into the first octant
-// and back is all arithmetic on signs: which octant it is would be guessed wrongly half of the time.
+// The fraction of a turn, in [-1/2, 1/2], at which (x, y) lies, within 2.25 epsilon, relative. (0, 0) gives 0, a NaN NaN.
 template <Real R>
 [[nodiscard, gnu::always_inline]] inline R signed_turn_of(R x, std::type_identity_t<R> y) noexcept {
     using T = scalar_of<R>;
-    const R ax = real::abs(x), ay = real::abs(y);
-    // Two comparisons, not the same one twice, which compilers make a branch of. 0 ax keeps the NaN that they let go.
+    // 1. Fold into the first octant, where 0 <= small <= large. No smaller large than min(): then (0, 0) is 0 / min().
+    // The two comparisons differ on purpose: of the same one twice, compilers make a branch. min and max may drop a NaN in
+    // ax; 0 * ax keeps it.
+    const R ax = real::abs(real::rounded(x)), ay = real::abs(real::rounded(y));
     const R small = real::min(ay, ax);
-    const R large = real::max(real::max(ay, ax), std::numeric_limits<T>::min()) + 0 * ax;
+    const R large = real::max(real::max(ay, ax), std::numeric_limits<T>::min()) + real::rounded(0 * ax);
+
+    // 2. The arc tangent of small / large, in turns: from 0 to 1/8.
     R octant;
     if constexpr (std::same_as<T, float>) {
         const R t = real::divide(small, large);
         octant = t * detail::polynomial(R(t * t), detail::Minimax<T>::arc_tangent);
     } else {
-        // Beyond pi / 8 counted from pi / 4, which spares as many terms again.
+        // Beyond tan(pi / 8), counted back from 1/8, by the arc tangent of (small - large) / (small + large): the argument
+        // stays below tan(pi / 8), which takes half of the terms.
         const auto beyond = small > T(0.41421356237309505) * large;
-        const R t =
-            real::divide(real::select(beyond, small - large, small), real::select(beyond, small + large, large));
+        const R t = real::divide(real::select(beyond, real::rounded(small - large), small),
+                                 real::select(beyond, real::rounded(small + large), large));
         octant = real::mul_add(t, detail::polynomial(R(t * t), detail::Minimax<T>::arc_tangent),
                                real::select(beyond, R(T(0.125)), 0));
     }
-    // Where y is the larger, 1/4 - octant; where x is negative, 1/2 - quadrant.
-    const R quadrant = real::abs(R(real::rounded(R(T(0.125) - real::copysign(R(T(0.125)), ax - ay))) - octant));
-    const R half = real::abs(R(real::rounded(R(T(0.25) - real::copysign(R(T(0.25)), x))) - quadrant));
+
+    // 3. Unfold by signs, not by branches, which would be guessed wrongly half of the time.
+    // |0 - octant| = octant where x is the larger, else |1/4 - octant|.
+    const R from_axis = real::rounded(T(0.125) - real::copysign(R(T(0.125)), ax - ay));
+    const R quadrant = real::abs(R(from_axis - octant));
+    // |0 - quadrant| = quadrant where x is positive, else |1/2 - quadrant|.
+    const R from_positive_x = real::rounded(T(0.25) - real::copysign(R(T(0.25)), x));
+    const R half = real::abs(R(from_positive_x - quadrant));
     return real::copysign(half, y);
 }
 
@@ -120,26 +135,27 @@ template <Real R>
 template <Real R>
 [[nodiscard, gnu::always_inline]] inline R turn_of(R x, std::type_identity_t<R> y) noexcept {
     const R turn = signed_turn_of(x, y);
-    const R wrapped = real::select(turn < 0, turn + 1, turn);
+    const R wrapped = real::rounded(real::select(turn < 0, turn + 1, turn));
+    // The sum of a tiny negative turn and 1 rounds to 1.
     return real::select(wrapped < 1, wrapped, 0);
 }
 
 namespace real {
 
-// atan2(y, x) in radians; (0, 0) gives 0.
+// atan2(y, x) in radians, within 2.75 epsilon, relative; (0, 0) gives 0.
 template <Real R>
 [[nodiscard, gnu::always_inline]] inline R atan2(R y, std::type_identity_t<R> x) noexcept {
     return 2 * std::numbers::pi_v<scalar_of<R>> * signed_turn_of(R(x), y);
 }
 
-// acos(x) in radians, for x in [-1, 1].
+// acos(x) in radians, for x in [-1, 1], within 1.75 epsilon, relative.
 template <Real R>
 [[nodiscard]] R acos(R x) noexcept {
     using T = scalar_of<R>;
-    const R ax = abs(x);
-    // Beyond 1/2 by half the angle, which has the sine sqrt((1 - x) / 2).
+    const R ax = abs(rounded(x));
+    // Beyond 1/2 by half the angle, which has the sine sqrt((1 - |x|) / 2).
     const auto beyond = ax > T(0.5);
-    const R square = select(beyond, (1 - ax) * T(0.5), ax * ax);
+    const R square = select(beyond, rounded(1 - ax) * T(0.5), ax * ax);
     const R sine = select(beyond, sqrt(square), ax);
     const R angle = sine * detail::polynomial(square, detail::Minimax<T>::arc_sine);
     const R start = select(beyond, select(x < 0, R(std::numbers::pi_v<T>), 0), std::numbers::pi_v<T> / 2);

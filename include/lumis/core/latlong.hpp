@@ -11,7 +11,7 @@ namespace lumis {
 // arc tangent of sqrt(x^2 + z^2) over y, not acos(y): near the poles a float y has no digits left.
 template <Real R>
 [[nodiscard, gnu::always_inline]] inline glm::vec<2, R> latlong_from_direction(const Direction<R>& w) noexcept {
-    const R u = scalar_of<R>(0.5) + signed_turn_of(w.x, w.z);
+    const R u = real::rounded(scalar_of<R>(0.5) + signed_turn_of(w.x, w.z));
     const R v = 2 * signed_turn_of(w.y, real::sqrt(R(w.x * w.x + w.z * w.z)));
     return {real::select(u < 1, u, u - 1), v};
 }
