@@ -65,7 +65,7 @@ TEMPLATE_TEST_CASE("the probabilities of an alias table sum to 1 and follow the 
         }
         INFO(weights.size() << " weights");
         CHECK(sum == 1);  // whole counts, exactly
-        // A count's rounding, and the one count that each gets beforehand.
+        // A count's rounding, and what dim ones take, which keep one count each.
         CHECK(worst <= static_cast<double>(2 + weights.size()) / double{lumis::total_counts<T>});
         CHECK(table.pdf(weights.size()) == 0);
         CHECK(table.pdf(std::numeric_limits<std::size_t>::max()) == 0);
@@ -138,6 +138,28 @@ TEMPLATE_TEST_CASE("weights that an alias table refuses", "[alias_table]", float
 TEST_CASE("an alias table of more weights than there are counts is refused", "[alias_table]") {
     CHECK_THAT(refusal(std::vector<float>((1u << 24) + 1, 1.0f)), Catch::Matchers::Contains("16777217"));
     CHECK(refusal(std::vector<float>(1u << 24, 1.0f)) == "accepted");
+}
+
+// Each dim light keeps a probability of 2^-24, all of them 60 %: what is left draws the bright one too seldom.
+TEST_CASE("more dim weights than a float table can tell apart are refused", "[alias_table]") {
+    std::vector<float> weights(10'000'000, 1e-12f);
+    weights.push_back(1);
+    const auto message = refusal(weights);
+    CAPTURE(message);
+    CHECK_THAT(message, Catch::Matchers::Contains("10000000 weights are less than 1/16777216 of the sum"));
+    CHECK_THAT(message, Catch::Matchers::Contains("would take 59.6") && Catch::Matchers::Contains("in double"));
+
+    // In double they are told apart.
+    const lumis::AliasTable<double> table{std::vector<double>(weights.begin(), weights.end())};
+    CHECK(table.pdf(weights.size() - 1) >= 0.995);
+    CHECK(table.pdf(5) == 0x1p-31);
+
+    // A quarter of the counts is never refused, and costs the bright one a quarter of its draws.
+    weights.assign(1u << 22, 1e-12f);
+    weights.back() = 1;
+    const lumis::AliasTable most{weights};
+    CHECK(std::abs(most.pdf(weights.size() - 1) - 0.75f) <= 1e-6f);
+    CHECK(most.pdf(5) == 0x1p-24f);
 }
 
 TEMPLATE_TEST_CASE("an alias table of 1e7 weights", "[alias_table]", float, double) {

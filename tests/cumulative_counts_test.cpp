@@ -57,8 +57,61 @@ TEMPLATE_TEST_CASE("shares follow the weights to one count", "[cumulative_counts
     const auto starts = deal<T>(weights);
     for (std::size_t i = 0; i < weights.size(); ++i) {
         const double exact = weights[i] / sum * lumis::total_counts<T>;
-        // The count that each entry gets beforehand is taken from all.
-        CHECK(std::abs(static_cast<double>(starts[i + 1] - starts[i]) - exact) <= 1 + 1 + 1000 * weights[i] / sum);
+        CHECK(std::abs(static_cast<double>(starts[i + 1] - starts[i]) - exact) <= 1 + 1e-6);
+    }
+}
+
+// What is dim (less than one count's worth) gets one count each, and the others are scaled down alike: nothing else is moved.
+TEMPLATE_TEST_CASE("only dim weights get more than their share", "[cumulative_counts]", float, double) {
+    using T = TestType;
+    const double all = lumis::total_counts<T>;
+    std::mt19937_64 engine{4};
+    std::uniform_real_distribution<double> uniform{0.1, 1};
+    for (const std::size_t number_dim : {0u, 1u, 1000u, 30'000u}) {
+        std::vector<double> weights(number_dim + 1000, 1e-14);
+        double bright = 0;
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            if (i % (weights.size() / 1000) == 0 && i / (weights.size() / 1000) < 1000) weights[i] = uniform(engine);
+            if (weights[i] > 1e-3) bright += weights[i];
+        }
+        std::vector<std::uint32_t> starts(weights.size());
+        const auto dealt = lumis::deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return starts[i]; });
+        starts.push_back(lumis::total_counts<T>);
+        CHECK(dealt.dim == number_dim);
+        CHECK(std::abs(dealt.excess - static_cast<double>(number_dim) / all) <= 1e-6 * dealt.excess);
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            const double counts = starts[i + 1] - starts[i];
+            const double share = weights[i] / bright * (all - static_cast<double>(number_dim));
+            wrong += weights[i] > 1e-3 ? !(std::abs(counts - share) <= 1.001) : counts != 1;
+        }
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("as many weights as counts, whatever they are, get one each", "[cumulative_counts]") {
+    std::vector<double> weights(1u << 24, 1.0);
+    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = static_cast<double>(1 + i % 1000);
+    const auto starts = deal<float>(weights);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) wrong += starts[i + 1] - starts[i] != 1;
+    CHECK(wrong == 0);
+}
+
+// Weights of which a few become dim in every round, since dim ones before them keep a whole count.
+TEST_CASE("counts are dealt in few rounds, and complete after any number of them", "[cumulative_counts]") {
+    for (const double decay : {0.9, 0.99, 0.999, 0.9999, 0.99999, 0.999999}) {
+        std::vector<double> weights{1};
+        while (weights.size() < (1u << 23)) weights.push_back(std::max(weights.back() * decay, 1e-300));
+        const auto starts = deal<float>(weights);
+        std::size_t none = 0, risen = 0;
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            none += starts[i + 1] <= starts[i];
+            // Decreasing weights have decreasing counts, up to rounding.
+            risen += i > 0 && starts[i + 1] - starts[i] > starts[i] - starts[i - 1] + 1;
+        }
+        CHECK(none == 0);
+        CHECK(risen == 0);
     }
 }
 

@@ -30,13 +30,13 @@ class AliasRows {
     [[nodiscard]] std::size_t entries() const noexcept { return entries_; }
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return bins_.size() * sizeof(Bin); }
 
-    // Sets one row; different rows may be dealt at the same time. Returns the sum of the weights.
-    ScaledSum deal(std::size_t row, std::span<const double> weights) {
+    // Sets one row; different rows may be dealt at the same time.
+    Dealt deal(std::size_t row, std::span<const double> weights) {
         std::vector<std::uint32_t> counts(entries_ + 1, total_counts<T>);
-        const ScaledSum sum = deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return counts[i]; });
+        const Dealt dealt = deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return counts[i]; });
         for (std::size_t i = 0; i < entries_; ++i) counts[i] = counts[i + 1] - counts[i];
         fill(bins_.data() + row * entries_, counts);
-        return sum;
+        return dealt;
     }
 
     // u in [0, 1]. An entry of weight 0 is never drawn.

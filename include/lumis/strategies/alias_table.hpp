@@ -28,8 +28,9 @@ class AliasTable {
     // lattice points. All-zero weights are legal, see empty(). Keeps 8 bytes a weight.
     explicit AliasTable(std::span<const T> weights) : table_{checked_size<T>(weights.size()), 1} {
         require_weights(weights);
-        const bool any = table_.deal(0, std::vector<double>(weights.begin(), weights.end())).value > 0;
-        probability_of_count_ = any ? 1 / static_cast<T>(total_counts<T>) : T(0);
+        const Dealt dealt = table_.deal(0, std::vector<double>(weights.begin(), weights.end()));
+        require_enough_counts<T>(dealt);
+        probability_of_count_ = dealt.value > 0 ? 1 / static_cast<T>(total_counts<T>) : T(0);
     }
 
     [[nodiscard]] std::size_t size() const noexcept { return table_.entries(); }

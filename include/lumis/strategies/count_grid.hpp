@@ -48,7 +48,7 @@ class CountGrid {
     // weights_of(row, weights): sets the weights of a row's cells, finite and not negative. scale(row): what a row's sum
     // of weights is multiplied by. for_each_row: runs the rows, see InOrder.
     void deal(auto weights_of, auto scale, const auto& for_each_row) {
-        std::vector<ScaledSum> sums(height_);
+        std::vector<Dealt> sums(height_);
         for_each_row(height_, [&](std::size_t row) {
             std::vector<double> weights(width_);
             weights_of(row, std::span<double>{weights});
@@ -56,7 +56,8 @@ class CountGrid {
         });
         empty_ = true;
         int exponent = std::numeric_limits<int>::min();
-        for (const ScaledSum& sum : sums) {
+        for (const Dealt& sum : sums) {
+            require_enough_counts<T>(sum);
             empty_ = empty_ && !(sum.value > 0);
             exponent = sum.exponent > exponent ? sum.exponent : exponent;
         }
@@ -66,7 +67,7 @@ class CountGrid {
         for (std::size_t row = 0; row < height_; ++row) {
             if (sums[row].value > 0) weights[row] = real::max(scale(row) * sums[row].relative_to(exponent), least);
         }
-        rows_.deal(0, weights);
+        require_enough_counts<T>(rows_.deal(0, weights));
     }
 
     [[nodiscard]] std::size_t width() const noexcept { return width_; }

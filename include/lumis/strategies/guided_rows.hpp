@@ -29,10 +29,10 @@ class GuidedRows {
         return starts_.size() * sizeof(Start) + guide_.size() * sizeof(Guide);
     }
 
-    // Sets one row; different rows may be dealt at the same time. Returns the sum of the weights.
-    ScaledSum deal(std::size_t row, std::span<const double> weights) {
+    // Sets one row; different rows may be dealt at the same time.
+    Dealt deal(std::size_t row, std::span<const double> weights) {
         Start* const starts = &starts_[row * (entries_ + 1)];
-        const ScaledSum sum = deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return starts[i].value; });
+        const Dealt dealt = deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return starts[i].value; });
         starts[entries_].value = total_counts<T>;
         Guide* const guide = &guide_[row * (entries_ + 1)];
         std::size_t entry = 0;
@@ -43,7 +43,7 @@ class GuidedRows {
         }
         while (starts[entry + 1].value < total_counts<T>) ++entry;
         guide[entries_].value = static_cast<std::uint16_t>(entry >> guide_shift_);
-        return sum;
+        return dealt;
     }
 
     // u in [0, 1]. An entry of weight 0 is never drawn.

@@ -29,8 +29,9 @@ class PiecewiseConstant1D {
     // counts (2^24 in float). All-zero weights are legal, see empty(). Keeps 6 bytes a weight.
     explicit PiecewiseConstant1D(std::span<const T> weights) : table_{checked_size<T>(weights.size()), 1} {
         require_weights(weights);
-        const bool any = table_.deal(0, std::vector<double>(weights.begin(), weights.end())).value > 0;
-        density_of_count_ = any ? static_cast<T>(size()) / static_cast<T>(total_counts<T>) : T(0);
+        const Dealt dealt = table_.deal(0, std::vector<double>(weights.begin(), weights.end()));
+        require_enough_counts<T>(dealt);
+        density_of_count_ = dealt.value > 0 ? static_cast<T>(size()) / static_cast<T>(total_counts<T>) : T(0);
     }
 
     [[nodiscard]] std::size_t size() const noexcept { return table_.entries(); }
