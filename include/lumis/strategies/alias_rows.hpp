@@ -1,8 +1,19 @@
-// Tables of one size, a row each, drawn by the alias method (Walker 1977) in fixed point: bins and weights are whole
-// numbers of counts (see cumulative_counts.hpp), so that the reported counts are the ones drawn. In constant time, from
-// one bin nearly always, but not monotone: neighbouring uniforms may draw entries far apart, and there is no inverse.
+// Tables of one size, a row each, drawn by the alias method (Walker 1977) in fixed point: bins and entries are whole numbers
+// of counts (see cumulative_counts.hpp), so that the reported counts are the ones drawn. A draw takes constant time and
+// nearly always reads one bin. It is not monotone: neighbouring uniforms may draw entries far apart, and there is no
+// inverse.
+//
+// The total_counts<T> counts are divided into as many bins as there are entries, of equal size but for one count. Bin i holds
+// counts of entry i first, and then counts of another entry, its alias:
+//
+//     bin i   | own counts: draw i | the rest: draw the alias |      0 < own < size of the bin, or own = 0
+//
+// An entry with fewer counts than its bin is light: all of its counts are in its own bin. A heavy entry fills up the bins of
+// light ones and of other heavy ones; what is left of it at last stands in its own bin. A heavy entry that fills its bin
+// alone is stored as its own alias, with no own counts.
 #pragma once
 
+#include "lumis/core/real.hpp"
 #include "lumis/strategies/cumulative_counts.hpp"
 
 #include <bit>
@@ -41,21 +52,25 @@ class AliasRows {
 
     // u in [0, 1]. An entry of weight 0 is never drawn.
     [[nodiscard]] DrawnEntry<T> draw(std::size_t row, T u) const noexcept {
+        // 1. The bin that holds the count: floor(count entries / total_counts).
         const auto [count, within] = lattice_point(u);
         const std::uint64_t scaled = std::uint64_t{count} * entries_;
         const auto index = static_cast<std::size_t>(scaled >> count_bits<T>);
-        // The count's place in the bin: remainder / entries_, by multiplication (Granlund and Montgomery 1994).
+        // 2. The count's place in the bin: floor(remainder / entries), by multiplication (Granlund and Montgomery 1994).
         const std::uint64_t remainder = scaled & (total_counts<T> - 1);
         const auto place = static_cast<std::uint32_t>((remainder * reciprocal_) >> division_shift_);
 
+        // 3. The entry: the bin's own, or its alias.
         const Bin* const bins = bins_.data() + row * entries_;
         const Bin bin = bins[index];
         const std::uint32_t own = bin.own_and_alias & own_mask();
         const std::size_t alias = bin.own_and_alias >> own_bits_;
         const bool is_own = place < own, light = bin.is_light();
         const std::size_t drawn = is_own ? index : alias;
+        // 4. Its counts. Those of a light bin's alias are stored in the bin; else the drawn entry is heavy and stores them.
         const std::uint32_t heavy_counts = bins[light ? index : drawn].heavy_counts();
-        const std::uint32_t larger = remainder - place * entries_ < larger_bins_;
+        // 5. Where the count lies within this run of the entry's counts.
+        const std::uint32_t larger = remainder - place * entries_ < larger_bins_;  // the bin holds one more
         const std::uint32_t begin = is_own ? 0 : own, end = is_own ? own : capacity_ + larger;
         return {drawn, is_own && light ? own : heavy_counts,
                 real::divide(static_cast<T>(place - begin) + within, static_cast<T>(end - begin))};
@@ -68,8 +83,9 @@ class AliasRows {
     }
 
   private:
-    // A light entry does not fill its bin, and all its counts are there: the first ones. A heavy entry fills up others'
-    // and, with no more than a bin's worth left, leaves the rest of its own to the next heavy one.
+    //     own_and_alias    | alias: the other bits | own counts: the low own_bits_ |
+    //     heavy_and_kind   | light: bit 31 | counts of the heavy entry, less 1: bits 0 to 30 |
+    // The heavy entry is the bin's own, or a light bin's alias.
     struct Bin {
         Bin() noexcept {}
         Bin(std::uint32_t own_and_alias_, std::uint32_t heavy, bool light) noexcept
@@ -79,20 +95,21 @@ class AliasRows {
         [[nodiscard]] bool is_light() const noexcept { return heavy_and_kind >= light_bit; }
         [[nodiscard]] std::uint32_t heavy_counts() const noexcept { return (heavy_and_kind & ~light_bit) + 1; }
 
-        std::uint32_t own_and_alias;   // in the low bits, how many of the bin's counts draw its own entry
-        std::uint32_t heavy_and_kind;  // the counts of a heavy entry, of a light one's alias
+        std::uint32_t own_and_alias, heavy_and_kind;
     };
 
     [[nodiscard]] std::uint32_t own_mask() const noexcept { return (std::uint32_t{1} << own_bits_) - 1; }
 
+    // The counts of a bin: those from ceil(bin total_counts / entries) on.
     [[nodiscard]] std::uint32_t capacity(std::size_t bin) const noexcept {
         if (larger_bins_ == 0) return capacity_;
         const auto extra = [&](std::uint64_t i) { return (i * larger_bins_ + entries_ - 1) / entries_; };
         return capacity_ + static_cast<std::uint32_t>(extra(bin + 1) - extra(bin));
     }
 
-    // One sweep over light and heavy entries each (Huebschle-Schneider and Sanders 2022, "Parallel Weighted Random
-    // Sampling"), which needs no lists and fills neighbouring bins from the same entry.
+    // Sets the bins of a row. One index sweeps over the light entries and one over the heavy ones (Huebschle-Schneider and
+    // Sanders 2022, "Parallel Weighted Random Sampling"): no lists are needed, and the same heavy entry fills neighbouring
+    // bins.
     void fill(Bin* bins, std::span<const std::uint32_t> counts) const noexcept {
         const auto packed = [&](std::uint32_t own, std::size_t alias) {
             return static_cast<std::uint32_t>(alias << own_bits_) | own;
@@ -105,12 +122,14 @@ class AliasRows {
         std::uint32_t left = counts[heavy];  // of the heavy entry
         while (heavy < entries_) {
             const std::uint32_t room = capacity(heavy);
+            // While the heavy entry does not fit into its own bin, it fills up light ones.
             for (; left > room; light = next(light + 1, true)) {
                 left -= capacity(light) - counts[light];
                 bins[light] = Bin{packed(counts[light], heavy), counts[heavy], true};
             }
+            // Then the rest of it goes there, and the next heavy entry fills up what remains. A full bin is stored as its own
+            // alias: own_bits_ do not hold so many own counts.
             const std::size_t other = next(heavy + 1, false);
-            // A full bin is its entry's alias: so many counts of its own do not fit in.
             bins[heavy] = Bin{left < room ? packed(left, other) : packed(0, heavy), counts[heavy], false};
             if (other < entries_) left = counts[other] - (room - left);
             heavy = other;

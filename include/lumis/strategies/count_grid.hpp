@@ -45,8 +45,9 @@ class CountGrid {
           rows_{height_, 1},
           cells_{width_, height_} {}
 
-    // weights_of(row, weights): sets the weights of a row's cells, finite and not negative. scale(row): what a row's sum
-    // of weights is multiplied by. for_each_row: runs the rows, see InOrder.
+    // weights_of(row, weights) sets the weights of a row's cells, finite and not negative. scale(row) is what a row's sum of
+    // weights is multiplied by. for_each_row runs the rows, see InOrder. Throws if counts are too few for the weights, see
+    // require_enough_counts.
     void deal(auto weights_of, auto scale, const auto& for_each_row) {
         std::vector<Dealt> sums(height_);
         for_each_row(height_, [&](std::size_t row) {
@@ -61,7 +62,7 @@ class CountGrid {
             empty_ = empty_ && !(sum.value > 0);
             exponent = sum.exponent > exponent ? sum.exponent : exponent;
         }
-        // In units of the brightest row; what would vanish beside it keeps the least weight that there is.
+        // In units of the brightest row. A row that would vanish beside it keeps the least weight that there is.
         constexpr double least = std::numeric_limits<double>::denorm_min();
         std::vector<double> weights(height_);
         for (std::size_t row = 0; row < height_; ++row) {
@@ -75,8 +76,9 @@ class CountGrid {
     [[nodiscard]] bool empty() const noexcept { return empty_; }
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return rows_.memory_bytes() + cells_.memory_bytes(); }
 
-    // Positions stay a few units in the last place clear of the cell's edges: a point rounded across one would be given
-    // the density of one cell and belong to another. An empty grid draws its last cell.
+    // u.y draws the row, u.x the cell within it. The position stays a few units in the last place clear of the cell's edges:
+    // a point rounded across one would be given the density of one cell and belong to another. An empty grid draws its
+    // last cell.
     [[nodiscard]] Drawn draw(glm::vec<2, T> u) const noexcept {
         const auto row = rows_.draw(0, u.y);
         const auto column = cells_.draw(row.index, u.x);
@@ -86,7 +88,7 @@ class CountGrid {
                 {clear_of_edges(column.position, width_), clear_of_edges(row.position, height_)}};
     }
 
-    // The u that draw a point.
+    // The u that draws a point.
     [[nodiscard]] glm::vec<2, T> invert(const Located& point) const noexcept requires requires(const Rows<T>& rows) {
         rows.uniform_of(0, 0, T(0));
     }

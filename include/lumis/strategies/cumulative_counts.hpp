@@ -129,7 +129,8 @@ Dealt deal_counts(std::span<const double> weights, auto start_of) {
     std::uint32_t positive_before = 0;
     for (std::size_t i = 0; i < weights.size(); ++i) {
         // Behind the last positive weight none is left, whatever has been rounded on the way there.
-        const double share = positive > 0 && positive_before == positive ? others : real::min(before * others_of_weight, others);
+        const double share =
+            positive > 0 && positive_before == positive ? others : real::min(before * others_of_weight, others);
         start_of(i) = positive_before + static_cast<std::uint32_t>(static_cast<std::int64_t>(share + 0.5));
         before += beyond(weights[i]);
         positive_before += weights[i] > 0;

@@ -1,9 +1,11 @@
 // Tables of one size, a row each, drawn by inverting their cumulative counts (see cumulative_counts.hpp): monotone, so
-// that the uniforms' stratification is kept, and invertible. The search is indexed (Chen and Asau 1974): for each of
-// equal runs of counts a guide tells in which entry it begins, from where the search goes on. Short scans with branches,
-// which processors guess and run ahead of memory, beat in large tables all searches without branches that we have tried.
+// that the uniforms' stratification is kept, and invertible. The search is indexed (Chen and Asau 1974): the counts are
+// divided into equal runs, and a guide tells in which entry each run begins; the search goes on from there. It is a short
+// scan with branches. Processors guess those and read ahead, which in large tables was faster than every search without
+// branches that we tried.
 #pragma once
 
+#include "lumis/core/real.hpp"
 #include "lumis/strategies/cumulative_counts.hpp"
 
 #include <bit>
@@ -55,8 +57,8 @@ class GuidedRows {
 #if defined(__GNUC__)
         __builtin_prefetch(starts + run);  // where an evenly lit row has it
 #endif
-        // The last entry that starts at or before the count lies between these: a few, unless many small ones share a
-        // run, or a wide table's guide tells entries only in groups.
+        // The entry drawn, the last one that starts at or before the count, lies between where this run begins and where
+        // the next one does: a few entries, unless many small ones share a run, or a wide table's guide tells only groups.
         std::size_t entry = std::size_t{guide[0].value} << guide_shift_;
         const std::size_t end = (std::size_t{guide[1].value} + 1) << guide_shift_;
         std::size_t last = (end < entries_ ? end : entries_) - 1;
