@@ -32,7 +32,7 @@ template <class Lights>
 
 }  // namespace detail
 
-// Lights and Table (an AliasTable) may be references, see Held.
+// Lights and Table (an AliasTable or FineAliasTable) may be references, see Held.
 template <class Lights, class Table>
 class LightSet {
     using Light = std::remove_cvref_t<decltype(detail::light_of(std::declval<const std::remove_cvref_t<Lights>&>(),
@@ -43,13 +43,13 @@ class LightSet {
     using Scalar = typename Light::Scalar;
     using Point = typename Light::Point;
     using Measure = typename Light::Measure;
-    static constexpr int dimensions = Light::dimensions + 1;
+    static constexpr int dimensions = std::remove_cvref_t<Table>::dimensions + Light::dimensions;
     using LightSampleType = decltype(std::declval<const Light&>().sample(UniformsOf<Light>{}));
 
     static_assert(std::same_as<typename std::remove_cvref_t<Table>::Scalar, Scalar>,
                   "the weights of a light set have its scalar type");
 
-    // weights: an AliasTable, or what one is made of; throws as that does, and if a range of lights is of another size.
+    // weights: a table, or what one is made of; throws as that does, and if a range of lights is of another size.
     // No lights and no weights are an empty set.
     template <class Weights>
     LightSet(Lights lights, Weights&& weights)
@@ -66,7 +66,7 @@ class LightSet {
     // True if no light has a weight above 0: then nothing is drawn.
     [[nodiscard]] bool empty() const noexcept { return table_.empty(); }
 
-    // u.x selects the light. The density is that of the whole set, and asks every light for its own.
+    // The first uniform selects the light, with a FineAliasTable the first two. The density is that of the whole set, and asks every light for its own.
     [[nodiscard]] LightSampleType sample(glm::vec<dimensions, Scalar> u) const noexcept {
         LightSampleType drawn = sample_one(u).sample;
         if (drawn.pdf > 0) drawn.pdf = pdf(drawn.value);
@@ -88,10 +88,13 @@ class LightSet {
         LightSampleType sample{};
     };
     [[nodiscard]] Selected sample_one(glm::vec<dimensions, Scalar> u) const noexcept {
-        const auto selected = table_.sample(glm::vec<1, Scalar>{u.x});
+        constexpr int selecting = dimensions - Light::dimensions;
+        glm::vec<selecting, Scalar> first;
+        for (int i = 0; i < selecting; ++i) first[i] = u[i];
+        const auto selected = table_.sample(first);
         if (!(selected.pdf > 0)) return {};
         UniformsOf<Light> rest;
-        for (int i = 0; i < Light::dimensions; ++i) rest[i] = u[i + 1];
+        for (int i = 0; i < Light::dimensions; ++i) rest[i] = u[selecting + i];
         auto sample = light(selected.value).sample(rest);
         sample.pdf *= selected.pdf;
         return {selected.value, sample};
