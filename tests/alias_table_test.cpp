@@ -10,6 +10,7 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -147,7 +148,7 @@ TEST_CASE("more dim weights than a float table can tell apart are refused", "[al
     const auto message = refusal(weights);
     CAPTURE(message);
     CHECK_THAT(message, Catch::Matchers::Contains("10000000 weights are less than 1/16777216 of the sum"));
-    CHECK_THAT(message, Catch::Matchers::Contains("would take 59.6") && Catch::Matchers::Contains("in double"));
+    CHECK_THAT(message, Catch::Matchers::Contains("would take 59.6") && Catch::Matchers::Contains("FineAliasTable"));
 
     // In double they are told apart.
     const lumis::AliasTable<double> table{std::vector<double>(weights.begin(), weights.end())};
@@ -160,6 +161,39 @@ TEST_CASE("more dim weights than a float table can tell apart are refused", "[al
     const lumis::AliasTable most{weights};
     CHECK(std::abs(most.pdf(weights.size() - 1) - 0.75f) <= 1e-6f);
     CHECK(most.pdf(5) == 0x1p-24f);
+}
+
+TEST_CASE("a fine alias table tells in float what a table in double tells", "[alias_table]") {
+    std::vector<float> weights(10'000'000, 1e-12f);
+    weights[77] = 1;
+    weights[78] = 0;
+    const lumis::FineAliasTable fine{weights};
+    const lumis::AliasTable<double> exact{std::vector<double>(weights.begin(), weights.end())};
+    CHECK(fine.size() == weights.size());
+    CHECK(fine.pdf(77) >= 0.995f);
+    CHECK(fine.pdf(5) == 0x1p-31f);
+    CHECK(fine.pdf(78) == 0);
+    CHECK(fine.pdf(weights.size()) == 0);
+    // The second uniform tells neighbours apart that the first does not: 128 counts to each of the first's points.
+    std::set<std::size_t> drawn;
+    const auto dark = static_cast<float>(0x1p-24 * 5);
+    for (int i = 0; i < 128; ++i) {
+        const float finer = static_cast<float>(i) / 128;
+        const auto sample = fine.sample({dark, finer});
+        const auto same = exact.sample(glm::dvec1{double{dark} + double{finer} * 0x1p-24});
+        CHECK(sample.value == same.value);
+        CHECK(sample.pdf == static_cast<float>(same.pdf));
+        CHECK(sample.pdf == fine.pdf(sample.value));
+        drawn.insert(sample.value);
+    }
+    CHECK(drawn.size() > 1);
+    for (const glm::vec2 u : {glm::vec2{0, 0}, glm::vec2{1, 1}, glm::vec2{1 - 0x1p-24f, 1 - 0x1p-24f}}) {
+        CHECK(fine.sample(u).pdf > 0);
+        CHECK(fine.sample(u).value < weights.size());
+    }
+    const lumis::FineAliasTable none{std::vector<float>(3)};
+    CHECK(none.empty());
+    CHECK(none.sample({0.5f, 0.5f}).pdf == 0);
 }
 
 TEMPLATE_TEST_CASE("an alias table of 1e7 weights", "[alias_table]", float, double) {

@@ -26,7 +26,7 @@ class AliasTable {
 
     // Throws std::invalid_argument for no weights, for one that is NaN, infinite or negative, and where the counts (2^24 in
     // float, 2^31 in double) are too few: for more weights than counts, and if those that are less than a count's worth
-    // would take more than a quarter of the draws beyond their share (see require_enough_counts). All-zero weights are
+    // would take more than a quarter of the draws beyond their share (see require_enough_counts, and FineAliasTable). All-zero weights are
     // legal, see empty(). Keeps 8 bytes a weight.
     explicit AliasTable(std::span<const T> weights) : table_{checked_size<T>(weights.size()), 1} {
         require_weights(weights);
@@ -57,5 +57,38 @@ class AliasTable {
 
 template <Spannable R>
 AliasTable(const R&) -> AliasTable<ElementOf<R>>;
+
+// An AliasTable<float> with the 2^31 counts of one in double, for weights that 2^24 do not tell apart: more than four million
+// lights of very unequal powers, say. It spends two uniforms: the second refines the first. Probabilities are those drawn,
+// rounded to float.
+class FineAliasTable {
+  public:
+    using Scalar = float;
+    using Point = std::size_t;
+    using Measure = measure::Counting;
+    static constexpr int dimensions = 2;
+
+    // Throws as AliasTable<double> does. Keeps 8 bytes a weight.
+    explicit FineAliasTable(std::span<const float> weights)
+        : table_{std::vector<double>(weights.begin(), weights.end())} {}
+
+    [[nodiscard]] std::size_t size() const noexcept { return table_.size(); }
+
+    // True if all weights are 0: then nothing is drawn, and the probability is 0.
+    [[nodiscard]] bool empty() const noexcept { return table_.empty(); }
+
+    // An index of weight 0 is never drawn.
+    [[nodiscard]] Sample<Point, float> sample(glm::vec<2, float> u) const noexcept {
+        // Lattice points of a float have 24 bits: together, the first 48 of a double's 53.
+        const double refined = double{u.x} + double{u.y} * 0x1p-24;
+        const auto drawn = table_.sample(glm::vec<1, double>{refined});
+        return {drawn.value, static_cast<float>(drawn.pdf)};
+    }
+
+    [[nodiscard]] float pdf(Point index) const noexcept { return static_cast<float>(table_.pdf(index)); }
+
+  private:
+    AliasTable<double> table_;
+};
 
 }  // namespace lumis

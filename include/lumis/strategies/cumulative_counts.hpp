@@ -151,7 +151,7 @@ void require_enough_counts(const Dealt& dealt) {
         "lumis: " + std::to_string(dealt.dim) + " weights are less than 1/" + std::to_string(total_counts<T>) +
         " of the sum, the least probability of a table in this precision, and would take " +
         std::to_string(100 * dealt.excess) + " % of the draws beyond their share; at most 25 % are allowed. " +
-        (total_counts<T> < total_counts<double> ? "A table in double has 2^31 counts. " : "") +
+        (total_counts<T> < total_counts<double> ? "AliasTable<double> and FineAliasTable have 2^31. " : "") +
         "Draw such weights from a table of their own, or merge them");
 }
 
