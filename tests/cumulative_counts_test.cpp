@@ -92,10 +92,18 @@ TEMPLATE_TEST_CASE("only dim weights get more than their share", "[cumulative_co
 TEST_CASE("as many weights as counts, whatever they are, get one each", "[cumulative_counts]") {
     std::vector<double> weights(1u << 24, 1.0);
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = static_cast<double>(1 + i % 1000);
-    const auto starts = deal<float>(weights);
-    std::size_t wrong = 0;
-    for (std::size_t i = 0; i < weights.size(); ++i) wrong += starts[i + 1] - starts[i] != 1;
-    CHECK(wrong == 0);
+    const auto number_wrong = [](const std::vector<double>& list) {
+        const auto starts = deal<float>(list);
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < list.size(); ++i) wrong += starts[i + 1] - starts[i] != 1;
+        return wrong;
+    };
+    CHECK(number_wrong(weights) == 0);
+    // Of equal ones rounding decides whether they are less than a count's worth: all of them, or none.
+    for (const double weight : {0.1, 0.3, 0.7, 1e-300, 1e300}) {
+        weights.assign(weights.size(), weight);
+        CHECK(number_wrong(weights) == 0);
+    }
 }
 
 // Weights of which a few become dim in every round, since dim ones before them keep a whole count.

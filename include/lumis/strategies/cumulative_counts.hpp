@@ -98,8 +98,9 @@ Dealt deal_counts(std::span<const double> weights, auto start_of) {
         for (const double weight : weights) sum += weight * scale;
     }
 
-    // 2. The weight that one count is worth, once every dim entry (one of less than that) has taken a whole count: of those
-    // there are more then, until there are not. A few rounds do; where they do not, dim ones keep their count all the same.
+    // 2. The weight that one count is worth. A dim entry, one of less than that, takes a whole count. Each of those left is
+    // then worth more, which may make further entries dim. A few rounds settle it; where 20 do not, step 3 still gives every
+    // entry its count.
     constexpr double all = total_counts<T>;
     Dealt result{{sum, exponent}};
     double worth = sum / all;
@@ -115,7 +116,7 @@ Dealt deal_counts(std::span<const double> weights, auto start_of) {
             result.dim = positive - brighter;
             result.excess = (result.dim - (sum - weight_of_bright) / worth) / all;
         }
-        if (brighter == bright) break;
+        if (brighter == bright || brighter == 0) break;
         bright = brighter;
         worth = weight_of_bright / (all - (positive - bright));
     }
