@@ -43,6 +43,11 @@ class InFrame {
         return local_.pdf(frame_.to_local(w));
     }
 
+    template <RealOf<Scalar> R = Scalar>
+    [[nodiscard]] R distance_along(const Direction<R>& w) const noexcept requires LightStrategy<Local> {
+        return local_.distance_along(frame_.to_local(w));
+    }
+
     [[nodiscard]] UniformsOf<Local> invert(const Point& w) const noexcept requires InvertibleStrategy<Local> {
         return local_.invert(frame_.to_local(w));
     }

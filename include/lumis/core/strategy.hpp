@@ -40,6 +40,13 @@ concept DeltaStrategy = Strategy<S> && requires {
     requires S::is_delta;
 };
 
+// A light as seen from the shaded point: distance_along(w) is how far away it is along the direction w, infinity where w
+// misses it. Combinations need it, for one light may stand before another.
+template <class S>
+concept LightStrategy = Strategy<S> && requires(const S light, typename S::Point w) {
+    { light.distance_along(w) } -> std::same_as<typename S::Scalar>;
+};
+
 // Tells an integrand that its point came from a delta strategy and that it is asked for the coefficient.
 struct delta_t {
     explicit delta_t() = default;

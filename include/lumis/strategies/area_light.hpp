@@ -63,6 +63,12 @@ class AreaLight<Shape, ByArea> {
         return density(hit.distance, hit.cos_light);
     }
 
+    // From the reference point to the light; infinity where w misses it.
+    template <RealOf<Scalar> R = Scalar>
+    [[nodiscard]] R distance_along(const Direction<R>& w) const noexcept {
+        return distance_or_infinity(view_.intersect(w));
+    }
+
     // Not for spheres, on which two points can lie in one direction.
     [[nodiscard]] glm::vec<2, Scalar> invert(const Point& w) const noexcept
         requires(!std::same_as<Shape, Sphere<Scalar>>) {

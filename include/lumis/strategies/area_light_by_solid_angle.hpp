@@ -53,6 +53,12 @@ class AreaLight<Sphere<T>, BySolidAngle> {
         return real::select(view_.contains(w), R(pdf_), 0);
     }
 
+    // From the reference point to the light; infinity where w misses it.
+    template <RealOf<T> R = T>
+    [[nodiscard]] R distance_along(const Direction<R>& w) const noexcept {
+        return distance_or_infinity(view_.intersect(w));
+    }
+
     [[nodiscard]] T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
 
     [[nodiscard]] T solid_angle() const noexcept { return view_.solid_angle(); }
@@ -90,6 +96,12 @@ class AreaLight<Triangle<T>, BySolidAngle> {
     }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept { return seen_.invert(w); }
+
+    // From the reference point to the light; infinity where w misses it.
+    template <RealOf<T> R = T>
+    [[nodiscard]] R distance_along(const Direction<R>& w) const noexcept {
+        return distance_or_infinity(view_.intersect(w));
+    }
 
     [[nodiscard]] T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
 
@@ -155,6 +167,12 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
         const bool in_first = glm::dot(w, across) * glm::dot(view_.edge_u(), across) > 0;
         const glm::vec<2, T> u = in_first ? first.invert(w) : second.invert(w);
         return {in_first ? u.x * share : 1 - u.x * (1 - share), u.y};
+    }
+
+    // From the reference point to the light; infinity where w misses it.
+    template <RealOf<T> R = T>
+    [[nodiscard]] R distance_along(const Direction<R>& w) const noexcept {
+        return distance_or_infinity(view_.intersect(w));
     }
 
     [[nodiscard]] T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }

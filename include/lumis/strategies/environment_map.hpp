@@ -131,6 +131,11 @@ class BasicEnvironmentMap {
         return pdf_at(latlong_from_direction(w));
     }
 
+    template <RealOf<T> R = T>
+    [[nodiscard]] R distance_along(const Direction<R>& /*w*/) const noexcept {
+        return std::numeric_limits<T>::infinity();
+    }
+
     // The density at a point (u, v) of the map, for hosts that have it from their own look-up of the radiance.
     // 0 for a NaN.
     [[nodiscard]] T pdf_at(glm::vec<2, T> uv) const noexcept {
