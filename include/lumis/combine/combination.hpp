@@ -4,6 +4,7 @@
 
 #include "lumis/combine/for_each_index.hpp"
 #include "lumis/combine/heuristics.hpp"
+#include "lumis/combine/nearest.hpp"
 #include "lumis/combine/technique.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/core/uniforms.hpp"
@@ -19,19 +20,24 @@ namespace lumis {
 
 namespace detail {
 
-// What an integrand returns for a sample: it is called with the point if it takes one, else with the whole sample; for
-// a delta strategy it is told so.
+// An integrand is called with the point if it takes one, else with the whole sample. A delta strategy's point comes with
+// a tag, which asks for the coefficient.
+template <class F, class Point, bool is_delta>
+inline constexpr bool takes_point =
+    is_delta ? std::invocable<F&, const Point&, delta_t> : std::invocable<F&, const Point&>;
+
 template <bool is_delta, class F, class S>
 [[nodiscard]] constexpr decltype(auto) evaluate(F& f, const S& sample) {
+    constexpr bool of_point = takes_point<F, decltype(sample.value), is_delta>;
     if constexpr (is_delta) {
-        static_assert(std::invocable<F&, decltype((sample.value)), delta_t> || std::invocable<F&, const S&, delta_t>,
+        static_assert(of_point || std::invocable<F&, const S&, delta_t>,
                       "a delta strategy asks the integrand for its coefficient: f(x, lumis::delta)");
-        if constexpr (std::invocable<F&, decltype((sample.value)), delta_t>) {
+        if constexpr (of_point) {
             return f(sample.value, delta);
         } else {
             return f(sample, delta);
         }
-    } else if constexpr (std::invocable<F&, decltype((sample.value))>) {
+    } else if constexpr (of_point) {
         return f(sample.value);
     } else {
         return f(sample);
@@ -47,9 +53,6 @@ template <class Value, std::floating_point T>
         return value * (1 / divisor);
     }
 }
-
-template <class S>
-inline constexpr bool is_delta_strategy = DeltaStrategy<std::remove_cvref_t<S>>;
 
 }  // namespace detail
 
@@ -88,22 +91,15 @@ class Combination {
     constexpr Combination(const Heuristic& heuristic, std::array<Scalar, size> factors, Techniques&&... techniques)
         : heuristic_{heuristic}, factors_{factors}, strategies_{std::forward<Techniques>(techniques).strategy...} {}
 
-    // What one sample of technique I adds to an estimate: its weight times f / (factor_I pdf).
+    // What one sample of technique I adds to an estimate: its weight times f / (factor_I pdf). Where the integrand takes
+    // the point alone, no light is asked how far away it is.
     template <std::size_t I, class F, class U>
     [[nodiscard]] auto draw(F& f, U& uniforms) const {
-        using S = std::remove_cvref_t<std::tuple_element_t<I, std::tuple<First, Rest...>>>;
-        const auto sample = strategy<I>().sample(uniforms.template next<S::dimensions>());
-        using Value = decltype(detail::evaluate<is_delta<I>>(f, sample) * Scalar{});
-        const Scalar own = factors_[I] * sample.pdf;
-        if (!(own > 0)) return Value{};
-        if constexpr (is_delta<I> || number_of_smooth == 1) {
-            return Value(detail::quotient(detail::evaluate<is_delta<I>>(f, sample), own));
+        constexpr int dimensions = Nth<I>::dimensions;
+        if constexpr (detail::takes_point<F, Point, is_delta<I>> && detail::SamplesPoints<Nth<I>>) {
+            return weighted<I>(f, strategy<I>().sample_point(uniforms.template next<dimensions>()));
         } else {
-            const Scalar weight = weight_given<I>(sample.value, [&] { return own; });
-            if constexpr (!requires { requires Heuristic::is_positive; }) {
-                if (!(weight > 0)) return Value{};
-            }
-            return Value(detail::evaluate<false>(f, sample) * (weight / own));
+            return weighted<I>(f, strategy<I>().sample(uniforms.template next<dimensions>()));
         }
     }
 
@@ -111,7 +107,47 @@ class Combination {
 
   private:
     template <std::size_t I>
-    static constexpr bool is_delta = detail::is_delta_strategy<std::tuple_element_t<I, std::tuple<First, Rest...>>>;
+    using Nth = std::remove_cvref_t<std::tuple_element_t<I, std::tuple<First, Rest...>>>;
+    template <std::size_t I>
+    static constexpr bool is_delta = DeltaStrategy<Nth<I>>;
+
+    template <std::size_t I, class F, class S>
+    [[nodiscard, gnu::always_inline]] auto weighted(F& f, const S& sample) const {
+        constexpr bool only_point = detail::takes_point<F, Point, is_delta<I>>;
+        using Value = decltype(detail::evaluate<is_delta<I>>(f, seen<I, only_point>(sample)) * Scalar{});
+        const Scalar own = factors_[I] * sample.pdf;
+        if (!(own > 0)) return Value{};
+        if constexpr (is_delta<I> || number_of_smooth == 1) {
+            const auto& whole = seen<I, only_point>(sample);
+            return Value(detail::quotient(detail::evaluate<is_delta<I>>(f, whole), own));
+        } else {
+            const Scalar weight = weight_given<I>(sample.value, [&] { return own; });
+            if constexpr (!requires { requires Heuristic::is_positive; }) {
+                if (!(weight > 0)) return Value{};
+            }
+            const auto& whole = seen<I, only_point>(sample);
+            return Value(detail::evaluate<false>(f, whole) * (weight / own));
+        }
+    }
+
+    // A sample of technique I as an integrand sees it. Where lights are combined it has the distance to the nearest of
+    // them, whichever technique drew it and whatever the counts: the integrand is the same function for all.
+    template <std::size_t I, bool only_point, class S>
+    [[nodiscard]] decltype(auto) seen(const S& sample) const noexcept {
+        constexpr bool is_delta_light = is_delta<I> && requires {
+            sample.distance;
+        };
+        if constexpr (only_point || size == 1 || is_delta_light) {
+            return (sample);
+        } else if constexpr (KnowNearest<S0, std::remove_cvref_t<Rest>...>) {
+            const Scalar own = detail::own_distance<Scalar>(sample);
+            return detail::with_distance(sample, detail::nearest_along<I>(strategies_, sample.value, own));
+        } else if constexpr (DrawsDistance<Nth<I>>) {
+            return Sample<Point, Scalar>{sample.value, sample.pdf};
+        } else {
+            return (sample);
+        }
+    }
 
     template <std::size_t I>
     [[nodiscard]] Scalar density(const Point& x) const noexcept {
@@ -143,7 +179,7 @@ class Combination {
     }
 
     static constexpr std::size_t number_of_smooth =
-        std::size_t{!detail::is_delta_strategy<First>} + (std::size_t{!detail::is_delta_strategy<Rest>} + ... + 0);
+        std::size_t{!DeltaStrategy<S0>} + (std::size_t{!DeltaStrategy<std::remove_cvref_t<Rest>>} + ... + 0);
 
     [[no_unique_address]] Heuristic heuristic_;
     std::array<Scalar, size> factors_;

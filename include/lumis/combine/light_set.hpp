@@ -6,12 +6,14 @@
 #pragma once
 
 #include "lumis/combine/held.hpp"
+#include "lumis/combine/nearest.hpp"
 #include "lumis/core/spannable.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/strategies/alias_table.hpp"
 
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -46,6 +48,11 @@ class LightSet {
     static constexpr int dimensions = std::remove_cvref_t<Table>::dimensions + Light::dimensions;
     using LightSampleType = decltype(std::declval<const Light&>().sample(UniformsOf<Light>{}));
 
+    // A light's own kind of sample; its distance is that to the nearest light of the set, which only lights know that are a
+    // LightStrategy.
+    using SampleType =
+        std::conditional_t<DrawsDistance<Light> && !LightStrategy<Light>, Sample<Point, Scalar>, LightSampleType>;
+
     static_assert(std::same_as<typename std::remove_cvref_t<Table>::Scalar, Scalar>,
                   "the weights of a light set have its scalar type");
 
@@ -66,23 +73,47 @@ class LightSet {
     // True if no light has a weight above 0: then nothing is drawn.
     [[nodiscard]] bool empty() const noexcept { return table_.empty(); }
 
-    // The first uniform selects the light, with a FineAliasTable the first two. The density is that of the whole set, and asks every light for its own.
-    [[nodiscard]] LightSampleType sample(glm::vec<dimensions, Scalar> u) const noexcept {
-        LightSampleType drawn = sample_one(u).sample;
-        if (drawn.pdf > 0) drawn.pdf = pdf(drawn.value);
-        return drawn;
+    // The first uniform selects the light, with a FineAliasTable the first two. Density and distance are those of the whole set, and ask every light for its own: a light may
+    // stand before the one selected, and is then the one that is seen.
+    [[nodiscard]] SampleType sample(glm::vec<dimensions, Scalar> u) const noexcept {
+        if constexpr (DrawsDistance<Light> && !LightStrategy<Light>) {
+            return sample_point(u);
+        } else {
+            const Selected drawn = sample_one(u);
+            SampleType sample = drawn.sample;
+            if (!(sample.pdf > 0)) return sample;
+            sample.pdf = density(sample.value, [&](std::size_t i, const Light& light) {
+                if constexpr (DrawsDistance<Light>) {
+                    if (i != drawn.index)
+                        sample.distance = real::min(sample.distance, light.distance_along(sample.value));
+                }
+            });
+            return sample;
+        }
+    }
+
+    // The same but for the distance.
+    [[nodiscard]] Sample<Point, Scalar> sample_point(glm::vec<dimensions, Scalar> u) const noexcept {
+        const auto drawn = sample_one(u).sample;
+        return {drawn.value, drawn.pdf > 0 ? pdf(drawn.value) : Scalar(0)};
     }
 
     [[nodiscard]] Scalar pdf(const Point& x) const noexcept {
-        Scalar sum = 0;
-        for (std::size_t i = 0; i < table_.size(); ++i) {
-            if (table_.pdf(i) > 0) sum += pdf_of(i, x);
-        }
-        return density_or_zero(sum);
+        return density(x, [](std::size_t, const Light&) {});
     }
 
-    // For hosts that treat what a light draws as its own, told apart from what another draws in the same direction: the
-    // index of the light selected, and its sample with the density that counts the selection. In constant time.
+    // To the nearest light of the set; infinity where there is none.
+    [[nodiscard]] Scalar distance_along(const Point& w) const noexcept requires LightStrategy<Light> {
+        Scalar nearest = std::numeric_limits<Scalar>::infinity();
+        for (std::size_t i = 0; i < table_.size(); ++i) {
+            if (table_.pdf(i) > 0) nearest = real::min(nearest, light(i).distance_along(w));
+        }
+        return nearest;
+    }
+
+    // For hosts to which each light is an integral of its own, told apart from what another draws in the same direction:
+    // the index of the light selected, and its sample with the density that counts the selection and the distance to this
+    // light. In constant time.
     struct Selected {
         std::size_t index{};
         LightSampleType sample{};
@@ -113,6 +144,19 @@ class LightSet {
             constexpr Scalar none[] = {Scalar(0)};
             return std::empty(weights) ? Table{none} : Table{weights};
         }
+    }
+
+    // The density of the whole set; visit(i, light) is called with each light that has a share in it.
+    template <class Visit>
+    [[nodiscard]] Scalar density(const Point& x, Visit visit) const noexcept {
+        Scalar sum = 0;
+        for (std::size_t i = 0; i < table_.size(); ++i) {
+            if (!(table_.pdf(i) > 0)) continue;
+            const auto& one = light(i);
+            sum += table_.pdf(i) * one.pdf(x);
+            visit(i, one);
+        }
+        return density_or_zero(sum);
     }
 
     [[nodiscard]] decltype(auto) light(std::size_t index) const { return detail::light_of(lights_, index); }

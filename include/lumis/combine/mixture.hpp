@@ -3,12 +3,15 @@
 #pragma once
 
 #include "lumis/combine/for_each_index.hpp"
+#include "lumis/combine/nearest.hpp"
 #include "lumis/combine/technique.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/strategy.hpp"
 
 #include <array>
+#include <concepts>
 #include <cstddef>
+#include <limits>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -19,12 +22,9 @@ template <class First, class... Rest>
     requires Composable<First, Rest...>
 class Mixture {
     using S0 = std::remove_cvref_t<First>;
-    template <class S>
-    static constexpr bool has_distance = requires(const S part, UniformsOf<S> u) {
-        part.sample(u).distance;
-    };
-    static constexpr bool all_have_distance = has_distance<S0> && (has_distance<std::remove_cvref_t<Rest>> && ...);
+    static constexpr bool knows_nearest = KnowNearest<S0, std::remove_cvref_t<Rest>...>;
 
+    static constexpr std::size_t size = 1 + sizeof...(Rest);
     static constexpr int part_dimensions =
         real::largest_of(std::array{std::remove_cvref_t<First>::dimensions, std::remove_cvref_t<Rest>::dimensions...});
 
@@ -34,8 +34,8 @@ class Mixture {
     using Measure = typename S0::Measure;
     static constexpr int dimensions = part_dimensions + 1;
 
-    // A mixture of lights is a light.
-    using SampleType = std::conditional_t<all_have_distance, LightSample<Point, Scalar>, Sample<Point, Scalar>>;
+    // A mixture with a light is a light. Its samples have the distance to the nearest one, whichever part drew them.
+    using SampleType = std::conditional_t<knows_nearest, LightSample<Point, Scalar>, Sample<Point, Scalar>>;
 
     static_assert(dimensions <= 4, "a mixture of mixtures of mixtures needs more uniforms than a glm::vec holds");
     static_assert(!(DeltaStrategy<S0> || ... || DeltaStrategy<std::remove_cvref_t<Rest>>),
@@ -47,30 +47,24 @@ class Mixture {
           parts_{std::forward<First>(first.strategy), std::forward<Rest>(rest.strategy)...} {}
 
     // u.x selects the part, which gets the other numbers: stretching u.x for it would leave a rare part few bits.
-    [[nodiscard]] SampleType sample(glm::vec<dimensions, Scalar> u) const noexcept {
-        SampleType result{};
-        Scalar remaining = u.x;
-        bool selected = false;
-        for_each_part([&](auto probability, const auto& part) {
-            if (!selected && remaining < probability) {
-                selected = true;
-                const auto drawn = part.sample(without_first<std::remove_cvref_t<decltype(part)>::dimensions>(u));
-                if (!(drawn.pdf > 0)) return;
-                if constexpr (all_have_distance) result.distance = drawn.distance;
-                result.value = drawn.value;
-                result.pdf = pdf(drawn.value);
-            }
-            remaining -= probability;
-        });
-        return result;
+    [[nodiscard]] SampleType sample(glm::vec<dimensions, Scalar> u) const noexcept { return draw<SampleType>(u); }
+
+    // The same but for the distance, which asks every light for its own.
+    [[nodiscard]] Sample<Point, Scalar> sample_point(glm::vec<dimensions, Scalar> u) const noexcept {
+        return draw<Sample<Point, Scalar>>(u);
     }
 
     [[nodiscard]] Scalar pdf(const Point& x) const noexcept {
         Scalar sum = 0;
-        for_each_part([&](auto probability, const auto& part) {
-            if (probability > 0) sum += probability * part.pdf(x);
+        detail::for_each_index<size>([&](auto i) {
+            if (probabilities_[i] > 0) sum += probabilities_[i] * std::get<i>(parts_).pdf(x);
         });
         return density_or_zero(sum);
+    }
+
+    // To the nearest light, parts of probability 0 included; infinity where there is none.
+    [[nodiscard]] Scalar distance_along(const Point& w) const noexcept requires knows_nearest {
+        return detail::nearest_along(parts_, w, std::numeric_limits<Scalar>::infinity());
     }
 
   private:
@@ -81,13 +75,44 @@ class Mixture {
         return rest;
     }
 
-    // Calls visit(probability, part) for each part.
-    template <class Visit>
-    constexpr void for_each_part(Visit visit) const {
-        detail::for_each_index<1 + sizeof...(Rest)>([&](auto i) { visit(probabilities_[i], std::get<i>(parts_)); });
+    // Result: with a distance, or without.
+    template <class Result>
+    [[nodiscard]] Result draw(glm::vec<dimensions, Scalar> u) const noexcept {
+        Result result{};
+        Scalar remaining = u.x;
+        bool selected = false;
+        detail::for_each_index<size>([&](auto i) {
+            if (!selected && remaining < probabilities_[i]) {
+                selected = true;
+                result = draw_part<i, Result>(u);
+            }
+            remaining -= probabilities_[i];
+        });
+        return result;
     }
 
-    std::array<Scalar, 1 + sizeof...(Rest)> probabilities_;
+    template <std::size_t I, class Result>
+    [[nodiscard]] Result draw_part(glm::vec<dimensions, Scalar> u) const noexcept {
+        constexpr bool with_distance = std::same_as<Result, LightSample<Point, Scalar>>;
+        using Part = std::remove_cvref_t<std::tuple_element_t<I, std::tuple<First, Rest...>>>;
+        const Part& part = std::get<I>(parts_);
+        const auto drawn = [&] {
+            const auto rest = without_first<Part::dimensions>(u);
+            if constexpr (!with_distance && detail::SamplesPoints<Part>) {
+                return part.sample_point(rest);
+            } else {
+                return part.sample(rest);
+            }
+        }();
+        if (!(drawn.pdf > 0)) return {};
+        Result result{drawn.value, pdf(drawn.value)};
+        if constexpr (with_distance) {
+            result.distance = detail::nearest_along<I>(parts_, drawn.value, detail::own_distance<Scalar>(drawn));
+        }
+        return result;
+    }
+
+    std::array<Scalar, size> probabilities_;
     std::tuple<First, Rest...> parts_;
 };
 

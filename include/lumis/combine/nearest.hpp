@@ -1,0 +1,81 @@
+// How far away the nearest of several lights is. A light in front of another hides it, whichever of them drew the
+// direction: a shadow ray that stops at the nearest light finds what is really seen there.
+#pragma once
+
+#include "lumis/combine/for_each_index.hpp"
+#include "lumis/core/real.hpp"
+#include "lumis/core/sample.hpp"
+#include "lumis/core/strategy.hpp"
+
+#include <concepts>
+#include <cstddef>
+#include <limits>
+#include <tuple>
+#include <type_traits>
+
+namespace lumis {
+
+template <class S>
+concept DrawsDistance = requires(const S strategy, UniformsOf<S> u) {
+    strategy.sample(u).distance;
+};
+
+// Combined strategies know the nearest light if there is a light among them, and each whose samples have a distance
+// tells it along any direction. A delta light hides nothing: its samples keep the distance that they come with.
+template <class... S>
+concept KnowNearest = (LightStrategy<S> || ...) && ((LightStrategy<S> || DeltaStrategy<S> || !DrawsDistance<S>)&&...);
+
+namespace detail {
+
+// Draws a point and its density alone, too: sample looks for the nearest light as well.
+template <class S>
+concept SamplesPoints = requires(const S strategy, UniformsOf<S> u) {
+    strategy.sample_point(u);
+};
+
+inline constexpr std::size_t no_index = ~std::size_t{};
+
+// The least of `nearest` and the distances to the lights among the strategies along w, except that to number `skipped`.
+template <std::size_t skipped = no_index, class... S, class Point, std::floating_point T>
+[[nodiscard]] T nearest_along(const std::tuple<S...>& strategies, const Point& w, T nearest) noexcept {
+    for_each_index<sizeof...(S)>([&](auto k) {
+        using Other = std::remove_cvref_t<std::tuple_element_t<k, std::tuple<S...>>>;
+        if constexpr (k != skipped && LightStrategy<Other>) {
+            nearest = real::min(nearest, std::get<k>(strategies).distance_along(w));
+        }
+    });
+    return nearest;
+}
+
+// A strategy's own kind of sample, and how far away the nearest light is along it.
+template <class Drawn, std::floating_point T>
+struct WithDistance : Drawn {
+    T distance;
+};
+
+template <class Drawn, std::floating_point T>
+[[nodiscard]] auto with_distance(const Drawn& sample, T distance) noexcept {
+    if constexpr (requires { sample.distance; }) {
+        Drawn result{sample};
+        result.distance = distance;
+        return result;
+    } else if constexpr (std::same_as<Drawn, Sample<decltype(Drawn::value), T>>) {
+        return LightSample<decltype(Drawn::value), T>{sample.value, sample.pdf, distance};
+    } else {
+        return WithDistance<Drawn, T>{sample, distance};
+    }
+}
+
+// A drawn sample's own distance; infinity for one that has none.
+template <std::floating_point T>
+[[nodiscard]] T own_distance(const auto& sample) noexcept {
+    if constexpr (requires { sample.distance; }) {
+        return sample.distance;
+    } else {
+        return std::numeric_limits<T>::infinity();
+    }
+}
+
+}  // namespace detail
+
+}  // namespace lumis
