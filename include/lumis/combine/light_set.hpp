@@ -73,8 +73,8 @@ class LightSet {
     // True if no light has a weight above 0: then nothing is drawn.
     [[nodiscard]] bool empty() const noexcept { return table_.empty(); }
 
-    // The first uniform selects the light, with a FineAliasTable the first two. Density and distance are those of the whole set, and ask every light for its own: a light may
-    // stand before the one selected, and is then the one that is seen.
+    // The first uniform selects the light, with a FineAliasTable the first two. Density and distance are those of the whole
+    // set, and ask every light for its own: a light may stand before the one selected, and is then the one that is seen.
     [[nodiscard]] SampleType sample(glm::vec<dimensions, Scalar> u) const noexcept {
         if constexpr (DrawsDistance<Light> && !LightStrategy<Light>) {
             return sample_point(u);

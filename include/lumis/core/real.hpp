@@ -19,6 +19,8 @@
     "Lumis cannot detect NaN and infinity under -ffinite-math-only (-ffast-math): add -fno-finite-math-only, or define LUMIS_ALLOW_FINITE_MATH_ONLY to accept that"
 #endif
 
+#include "lumis/core/scalar.hpp"
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -32,7 +34,7 @@ namespace detail {
 
 template <class R>
 struct ScalarOf {};
-template <std::floating_point T>
+template <FloatOrDouble T>
 struct ScalarOf<T> {
     using type = T;
 };
@@ -79,7 +81,7 @@ template <class R>
 using scalar_of = typename detail::ScalarOf<R>::type;
 
 template <class R>
-concept Real = std::floating_point<R> || requires {
+concept Real = FloatOrDouble<R> || requires {
     typename R::Lane;
 };
 

@@ -2,6 +2,9 @@
 // exactly 1; the adaptors here cannot.
 #pragma once
 
+#include "lumis/core/lifetime.hpp"
+#include "lumis/core/scalar.hpp"
+
 #include <glm/ext/vector_double1.hpp>
 #include <glm/ext/vector_float1.hpp>
 #include <glm/vec2.hpp>
@@ -17,9 +20,9 @@
 
 namespace lumis {
 
-// next<N>() yields N uniforms at once; x is drawn first.
+// next<N>() yields N uniforms at once; x is drawn first. What it returns is converted to glm::vec<N, T>.
 template <class U, class T>
-concept UniformSource = std::floating_point<T> && requires(U uniforms) {
+concept UniformSource = FloatOrDouble<T> && requires(U uniforms) {
     { uniforms.template next<1>() } -> std::convertible_to<glm::vec<1, T>>;
     { uniforms.template next<2>() } -> std::convertible_to<glm::vec<2, T>>;
     { uniforms.template next<3>() } -> std::convertible_to<glm::vec<3, T>>;
@@ -27,11 +30,11 @@ concept UniformSource = std::floating_point<T> && requires(U uniforms) {
 };
 
 // A uniform is a point k / 2^digits of the lattice that T can hold evenly: 2^24 of them in float, 2^53 in double.
-template <std::floating_point T>
+template <FloatOrDouble T>
 inline constexpr int uniform_bits = std::numeric_limits<T>::digits;
 
 // The lattice index of u; u == 1, which no source of ours yields, counts as the last one.
-template <std::floating_point T>
+template <FloatOrDouble T>
 [[nodiscard]] constexpr std::uint64_t lattice_index(T u) noexcept {
     constexpr auto size = std::uint64_t{1} << uniform_bits<T>;
     const auto index = static_cast<std::uint64_t>(static_cast<std::int64_t>(u * static_cast<T>(size)));
@@ -62,14 +65,15 @@ concept RandomBitGenerator = std::invocable<G&> && std::unsigned_integral<std::i
 
 // Any standard uniform random bit generator as a source. Uniforms{engine} draws from the caller's engine and advances
 // it; Uniforms{Engine{seed}} owns the one it is given, and so does Uniforms<Engine, T> spelt out.
-template <class Urbg, std::floating_point T = float>
+template <class Urbg, FloatOrDouble T = float>
 class Uniforms {
     using Engine = std::remove_reference_t<Urbg>;
     static_assert(RandomBitGenerator<Engine>);
 
   public:
     // The argument is kept out of deduction: compilers disagree whether it or the guide below decides.
-    constexpr explicit Uniforms(std::type_identity_t<Urbg> engine) : engine_{std::forward<Urbg>(engine)} {}
+    constexpr explicit Uniforms(std::type_identity_t<Urbg> engine LUMIS_LIFETIME_BOUND)
+        : engine_{std::forward<Urbg>(engine)} {}
 
     template <int N>
     [[nodiscard]] constexpr glm::vec<N, T> next() {
@@ -112,7 +116,7 @@ template <class Urbg>
 Uniforms(Urbg&&) -> Uniforms<Urbg, float>;
 
 // A host's own "give me the next number" as a source; what it returns at or above 1 becomes the largest number below 1.
-template <std::floating_point T, class F>
+template <FloatOrDouble T, class F>
 class UniformsFrom {
   public:
     constexpr explicit UniformsFrom(F nullary) : nullary_{std::move(nullary)} {}
@@ -130,7 +134,7 @@ class UniformsFrom {
     F nullary_;
 };
 
-template <std::floating_point T, class F>
+template <FloatOrDouble T, class F>
 [[nodiscard]] constexpr auto uniforms_from(F nullary) {
     return UniformsFrom<T, F>{std::move(nullary)};
 }
