@@ -1,4 +1,5 @@
 // Area lights: lights that are none, the sphere's cone from tiny to a hemisphere, and the conversion of measure.
+#include "assertions.hpp"
 #include "catch.hpp"
 #include <lumis/lumis.hpp>
 #include <lumis/testing/stability.hpp>
@@ -65,6 +66,7 @@ TEMPLATE_TEST_CASE("flat lights without area or seen edge-on draw nothing", "[ar
     const T nan = std::numeric_limits<T>::quiet_NaN(), inf = std::numeric_limits<T>::infinity();
     const P a{T(0), T(0), T(1)}, b{T(1), T(0), T(1)}, c{T(0), T(1), T(1)}, zero{T(0), T(0), T(0)};
     const auto nothing = [](const std::string& name, const P& p, const P& q, const P& r, const P& reference) {
+        const CaughtAssertions caught;  // of NaN
         check("triangle, " + name, laws::draws_nothing(light(lumis::Triangle<T>{p, q, r}, reference)));
         check("parallelogram, " + name,
               laws::draws_nothing(light(lumis::Parallelogram<T>{p, q - p, r - p}, reference)));
@@ -105,6 +107,7 @@ TEMPLATE_TEST_CASE("spheres that are none draw nothing", "[area_light]", float, 
     const T nan = std::numeric_limits<T>::quiet_NaN(), inf = std::numeric_limits<T>::infinity();
     const Point<T> center{T(0), T(0), T(2)}, zero{T(0), T(0), T(0)};
     const auto nothing = [](const Point<T>& c, T radius) {
+        const CaughtAssertions caught;  // of NaN
         for_both(c, radius,
                  [&](const auto& s) { check(laws::detail::text("radius ", radius), laws::draws_nothing(s)); });
     };
@@ -240,6 +243,7 @@ TEMPLATE_TEST_CASE("disks that are none draw nothing", "[area_light]", float, do
     const T nan = std::numeric_limits<T>::quiet_NaN(), inf = std::numeric_limits<T>::infinity();
     const P center{T(0), T(0), T(2)}, up{T(0), T(0), T(1)}, zero{T(0), T(0), T(0)};
     const auto nothing = [](const std::string& name, const P& c, const P& normal, T radius, const P& reference) {
+        const CaughtAssertions caught;  // of NaN
         check(name, laws::draws_nothing(light(lumis::Disk<T>{c, normal, radius}, reference)));
     };
     for (const T radius : {T(0), T(-1), nan, inf})

@@ -1,4 +1,5 @@
 // Lights without extent, alone and beside mirrors and smooth lobes: what comes out is the analytic value.
+#include "assertions.hpp"
 #include "catch.hpp"
 #include "irradiance.hpp"
 #include <lumis/lumis.hpp>
@@ -60,6 +61,7 @@ TEMPLATE_TEST_CASE("point lights that are nowhere draw nothing", "[delta_lights]
     const glm::vec<3, T> here{T(1), T(-2), T(3)};
     const glm::vec<3, T> others[] = {here, {nan, T(0), T(0)}, {T(0), inf, T(0)}, {T(0), T(0), -inf}};
     for (const auto& other : others) {
+        const CaughtAssertions caught;  // of NaN
         for (const auto& light : {lumis::PointLight{other, here}, lumis::PointLight{here, other}}) {
             const auto law = lumis::testing::draws_nothing(light, 10);
             INFO(law.message);
@@ -96,6 +98,7 @@ TEMPLATE_TEST_CASE("a directional light comes from where it is told", "[delta_li
     const auto direct = lumis::multi_sample(lumis::BalanceHeuristic{}, lumis::take(2, sun));
     const auto f = [](const glm::vec<3, T>& w, lumis::delta_t) { return 5 * w.z; };
     CHECK(std::abs(double{direct.estimate(f, uniforms)} - 3) <= tolerance<T>());
+    const CaughtAssertions caught;
     const auto law = lumis::testing::draws_nothing(
         lumis::DirectionalLight<T>{glm::vec<3, T>{std::numeric_limits<T>::quiet_NaN(), T(0), T(1)}}, 10);
     CHECK(law.passed);

@@ -1,4 +1,5 @@
 // What the fuzzers of tests/fuzz found: each case once failed as its comment says.
+#include "assertions.hpp"
 #include "catch.hpp"
 #include <lumis/lumis.hpp>
 
@@ -39,6 +40,7 @@ TEMPLATE_TEST_CASE("a direction that is none is mirrored to nothing", "", float,
     using T = TestType;
     // The value was NaN or infinite, for PerfectReflection and DirectionalLight with probability 1.
     for (const T bad : {not_a_number<T>, infinity<T>}) {
+        const CaughtAssertions caught;
         const glm::vec<3, T> wo{bad, T(0), T(1)};
         CHECK(lumis::PerfectReflection<T>{wo}.sample({}).pdf == 0);
         CHECK(lumis::DirectionalLight<T>{wo}.sample({}).pdf == 0);
@@ -50,6 +52,7 @@ TEMPLATE_TEST_CASE("a direction that is none is mirrored to nothing", "", float,
 
 TEMPLATE_TEST_CASE("a frame that is none carries nothing to world space", "", float, double) {
     using T = TestType;
+    const CaughtAssertions caught;
     const lumis::Frame<T> frame{
         glm::vec<3, T>{not_a_number<T>, T(0), T(1)}};  // the value was NaN, its density that of the part
     check_draws(lumis::in_frame(frame, lumis::CosineHemisphere<T>{}));
@@ -62,6 +65,7 @@ TEMPLATE_TEST_CASE("a density that overflows in a mixture is 0", "", float, doub
     const lumis::AreaLight<lumis::Disk<T>> light{{{T(0), T(0), distance}, {T(0), T(0), T(1)}, radius}, {}};
     const glm::vec<3, T> up{T(0), T(0), T(1)};
     const T pdf = light.pdf(up);
+    const CaughtAssertions caught;
     const lumis::Mixture mixture{lumis::choose(1, light), lumis::choose(infinity<T>, light)};
     CHECK(std::isfinite(pdf));
     CHECK(std::isfinite(mixture.pdf(up)));
@@ -113,6 +117,7 @@ TEMPLATE_TEST_CASE("a sphere around a point next to its centre is seen everywher
 TEMPLATE_TEST_CASE("GGX draws nothing for a vector too long or short to be a direction", "", float, double) {
     using T = TestType;
     // The value was infinite or NaN: mirroring overflows, the length of the stretched vector underflows.
+    const CaughtAssertions caught;
     const T huge = std::numeric_limits<T>::max(), tiny = 2 * std::sqrt(std::numeric_limits<T>::min());
     check_draws(lumis::GgxVndf<T>{{tiny, 0, tiny * tiny}, {T(1e-4), T(1e-4)}});
     for (const glm::vec<3, T>& wo : {glm::vec<3, T>{0, 0, huge}, {huge, 0, huge}, {huge, huge, T(1)}}) {
@@ -136,6 +141,7 @@ TEST_CASE("a sliver as wide as its rounding is drawn by unit vectors or not at a
 
 TEMPLATE_TEST_CASE("a power that vanishes gives a technique without density no share", "", float, double) {
     using T = TestType;
+    const CaughtAssertions caught;  // of an exponent below 1
     const std::vector<T> densities{T(2), T(0), T(3)};
     T sum = 0;  // was 2/3: pow(0, 0) is 1
     for (std::size_t i = 0; i < 3; ++i) {

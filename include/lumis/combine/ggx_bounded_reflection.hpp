@@ -25,8 +25,8 @@ template <std::floating_point T>
 // A density of the normals that reflect above the horizon; of others it knows nothing.
 template <std::floating_point T>
 struct GgxBoundedNormals : GgxCap<T> {
-    GgxBoundedNormals(const Direction<T>& wo, const Ggx<T>& ggx) noexcept
-        : GgxCap<T>{wo, ggx, bounded_cap_shortfall(wo, ggx.alpha())} {}
+    [[gnu::always_inline]] GgxBoundedNormals(const Direction<T>& wo, const Ggx<T>& ggx) noexcept
+        : GgxCap<T>{wo, ggx, [](const auto&... seen) { return bounded_cap_shortfall(seen...); }} {}
 };
 
 }  // namespace detail

@@ -1,20 +1,26 @@
 // An orthonormal right-handed frame; its local +z is the normal.
 #pragma once
 
+#include "lumis/core/arguments.hpp"
+#include "lumis/core/assert.hpp"
 #include "lumis/core/sample.hpp"
 
 #include <glm/geometric.hpp>
 
 #include <cmath>
 #include <concepts>
+#include <limits>
 
 namespace lumis {
 
 template <std::floating_point T = float>
 class Frame {
   public:
-    // Any frame around a unit normal (Duff et al. 2017, "Building an Orthonormal Basis, Revisited", listing 3).
-    [[gnu::always_inline]] explicit Frame(const Direction<T>& normal) noexcept : normal_{normal} {
+    // Any frame around a normal, which is asserted to be a unit vector; else it is scaled to one, and where it has no
+    // direction nothing is drawn in the frame (Duff et al. 2017, "Building an Orthonormal Basis, Revisited", listing 3).
+    [[gnu::always_inline]] explicit Frame(const Direction<T>& any_normal) noexcept {
+        LUMIS_ASSERT(detail::is_unit(any_normal));
+        const Direction<T> normal = normal_ = detail::unit_or(any_normal, not_a_number);
         const T sign = std::copysign(T(1), normal.z);
         const T a = real::divide(T(-1), sign + normal.z);
         const T b = normal.x * normal.y * a;
@@ -22,9 +28,14 @@ class Frame {
         bitangent_ = {b, sign + normal.y * normal.y * a, -normal.y};
     }
 
-    // Three orthonormal vectors as they are: for anisotropic materials.
+    // Three vectors as they are: for anisotropic materials. They are asserted to be orthonormal; else the nearest frame
+    // with this normal, and this tangent's plane, is made of them (Gram and Schmidt).
     constexpr Frame(const Direction<T>& tangent, const Direction<T>& bitangent, const Direction<T>& normal) noexcept
-        : tangent_{tangent}, bitangent_{bitangent}, normal_{normal} {}
+        : tangent_{tangent}, bitangent_{bitangent}, normal_{normal} {
+        LUMIS_ASSERT(detail::are_orthonormal(tangent, bitangent, normal));
+        if (!detail::are_orthonormal(tangent, bitangent, normal)) [[unlikely]]
+            *this = orthonormal(tangent, bitangent, normal);
+    }
 
     template <RealOf<T> R = T>
     [[nodiscard]] constexpr Direction<R> to_world(const Direction<R>& v) const noexcept {
@@ -41,6 +52,21 @@ class Frame {
     [[nodiscard]] constexpr const Direction<T>& normal() const noexcept { return normal_; }
 
   private:
+    // A vector that has no direction becomes this, of which strategies draw nothing.
+    static constexpr T not_a_number = std::numeric_limits<T>::quiet_NaN();
+
+    [[nodiscard, gnu::noinline, gnu::cold]] static Frame orthonormal(Direction<T> tangent, Direction<T> bitangent,
+                                                                     Direction<T> normal) noexcept {
+        const bool left_handed = detail::dot(glm::cross(normal, tangent), bitangent) < 0;
+        Frame frame;
+        frame.normal_ = detail::unit_or(normal, not_a_number);
+        frame.tangent_ = detail::unit_or(tangent - detail::dot(tangent, frame.normal_) * frame.normal_, not_a_number);
+        frame.bitangent_ = glm::cross(frame.normal_, frame.tangent_) * (left_handed ? T(-1) : T(1));
+        return frame;
+    }
+
+    Frame() = default;
+
     Direction<T> tangent_, bitangent_, normal_;
 };
 

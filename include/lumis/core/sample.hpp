@@ -1,6 +1,8 @@
 // What a strategy draws: a point, and the density with which it was drawn.
 #pragma once
 
+#include "lumis/core/arguments.hpp"
+#include "lumis/core/assert.hpp"
 #include "lumis/core/real.hpp"
 
 #include <glm/vec2.hpp>
@@ -49,10 +51,13 @@ template <Real R>
 }
 
 // A local direction above the horizon stays as it is. One below it, and what is no direction (NaN, or of a length whose
-// square is out of range), becomes the zero vector, from which nothing is drawn.
+// square is out of range), becomes the zero vector, from which nothing is drawn. It is asserted to be a unit vector; a
+// longer or shorter one is scaled to one.
 template <std::floating_point T>
 [[nodiscard]] constexpr Direction<T> above_horizon_or_zero(const Direction<T>& wo) noexcept {
-    return wo.z > 0 && is_squared_length(wo.x * wo.x + wo.y * wo.y + wo.z * wo.z) ? wo : Direction<T>{T(0)};
+    LUMIS_ASSERT(detail::is_unit(wo));
+    const Direction<T> unit = detail::unit_or(wo, T(0));
+    return unit.z > 0 ? unit : Direction<T>{T(0)};
 }
 
 }  // namespace lumis

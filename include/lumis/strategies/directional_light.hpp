@@ -19,11 +19,14 @@ class DirectionalLight {
     static constexpr bool is_delta = true;
 
     // direction: unit, towards the light.
-    constexpr explicit DirectionalLight(const Direction<T>& direction) noexcept : direction_{direction} {}
+    constexpr explicit DirectionalLight(const Direction<T>& direction) noexcept
+        : direction_{detail::unit_or(direction, T(0))} {
+        LUMIS_ASSERT(detail::is_unit(direction));
+    }
 
     template <RealOf<T> R = T>
     [[nodiscard]] constexpr LightSample<Direction<R>, R> sample(glm::vec<2, R>) const noexcept {
-        if (!all_finite(direction_)) return {};
+        if (!detail::is_unit(direction_)) return {};
         return {Direction<R>(direction_), T(1), std::numeric_limits<T>::infinity()};
     }
 

@@ -20,9 +20,11 @@ class DiskView {
   public:
     DiskView(const Disk<T>& disk, const glm::vec<3, T>& reference_point) noexcept
         : center_{disk.center - reference_point},
-          radius_{disk.radius > 0 ? disk.radius : T(0)},
-          frame_{disk.normal / real::length(disk.normal)},
-          height_{glm::dot(center_, frame_.normal())} {}
+          radius_{disk.radius > 0 && has_direction(disk.normal) ? disk.radius : T(0)},
+          frame_{has_direction(disk.normal) ? disk.normal / real::length(disk.normal) : Direction<T>{0, 0, 1}},
+          height_{glm::dot(center_, frame_.normal())} {
+        LUMIS_ASSERT(!detail::is_nan(disk) && !detail::is_nan(reference_point));
+    }
 
     [[nodiscard]] T area() const noexcept { return std::numbers::pi_v<T> * radius_ * radius_; }
 
@@ -53,6 +55,8 @@ class DiskView {
     }
 
   private:
+    static bool has_direction(const glm::vec<3, T>& v) noexcept { return is_squared_length(glm::dot(v, v)); }
+
     glm::vec<3, T> center_;  // relative to the reference point
     T radius_;
     Frame<T> frame_;

@@ -26,11 +26,15 @@ class FlatView {
   public:
     [[gnu::always_inline]] FlatView(const Shape& shape,
                                     const glm::vec<3, T>& reference_point) noexcept requires is_triangle
-        : FlatView{shape.a - reference_point, shape.b - shape.a, shape.c - shape.a} {}
+        : FlatView{shape.a - reference_point, shape.b - shape.a, shape.c - shape.a} {
+        LUMIS_ASSERT(!detail::is_nan(shape) && !detail::is_nan(reference_point));
+    }
 
     [[gnu::always_inline]] FlatView(const Shape& shape, const glm::vec<3, T>& reference_point) noexcept
         requires(!is_triangle)
-        : FlatView{shape.corner - reference_point, shape.edge_u, shape.edge_v} {}
+        : FlatView{shape.corner - reference_point, shape.edge_u, shape.edge_v} {
+        LUMIS_ASSERT(!detail::is_nan(shape) && !detail::is_nan(reference_point));
+    }
 
     [[nodiscard]] T area() const noexcept { return area_; }
 

@@ -25,6 +25,7 @@ class Ggx {
   public:
     // Roughness along x and y.
     [[gnu::always_inline]] explicit Ggx(glm::vec<2, T> alpha) noexcept : alpha_{in_range(alpha.x), in_range(alpha.y)} {
+        LUMIS_ASSERT(!detail::is_nan(alpha));
         if (alpha_.x * alpha_.y > 0) {
             inverse_alpha_ = {real::divide(T(1), alpha_.x), real::divide(T(1), alpha_.y)};
         } else {

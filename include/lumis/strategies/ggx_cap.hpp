@@ -20,11 +20,13 @@ class GgxCap {
     using Measure = measure::SolidAngle;
     static constexpr int dimensions = 2;
 
-    // The cap is z > -(1 - shortfall) wo.z, with wo stretched.
-    [[gnu::always_inline]] GgxCap(const Direction<T>& wo, const Ggx<T>& ggx, T shortfall) noexcept
+    // The cap is z > -(1 - shortfall) wo.z, with wo stretched; shortfall_of(wo, alpha) is asked for a unit wo or 0.
+    template <class ShortfallOf>
+    [[gnu::always_inline]] GgxCap(const Direction<T>& wo, const Ggx<T>& ggx, const ShortfallOf& shortfall_of) noexcept
         : ggx_{ggx}, wo_{above_horizon_or_zero(wo)} {
         const T length = ggx_.stretched_length(wo_);
         if (!is_squared_length(length * length)) return;
+        const T shortfall = shortfall_of(wo_, ggx.alpha());
         wo_std_ = real::divide(Direction<T>{ggx_.alpha().x * wo_.x, ggx_.alpha().y * wo_.y, wo_.z}, length);
         shortfall_ = shortfall;
         cap_height_ = 1 + (1 - shortfall) * wo_std_.z;

@@ -10,7 +10,7 @@ template <std::floating_point T = float>
 struct GgxVndf : detail::GgxCap<T> {
     // wo: unit; on or below the horizon nothing is drawn. alpha: roughness along x and y, see ggx_min_alpha.
     [[gnu::always_inline]] GgxVndf(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept
-        : detail::GgxCap<T>{wo, Ggx<T>{alpha}, T(0)} {}
+        : detail::GgxCap<T>{wo, Ggx<T>{alpha}, [](const auto&, const auto&) { return T(0); }} {}
 };
 
 }  // namespace lumis

@@ -15,11 +15,11 @@ class PerfectReflection {
     static constexpr bool is_delta = true;
 
     // wo: unit; on or below the horizon nothing is drawn.
-    constexpr explicit PerfectReflection(const Direction<T>& wo) noexcept : wo_{wo} {}
+    constexpr explicit PerfectReflection(const Direction<T>& wo) noexcept : wo_{above_horizon_or_zero(wo)} {}
 
     template <RealOf<T> R = T>
     [[nodiscard]] constexpr Sample<Direction<R>, R> sample(glm::vec<2, R>) const noexcept {
-        if (!(wo_.z > 0 && all_finite(wo_))) return {Direction<R>{T(0)}, T(0)};
+        if (!(wo_.z > 0)) return {Direction<R>{T(0)}, T(0)};
         return {{-wo_.x, -wo_.y, wo_.z}, T(1)};
     }
 

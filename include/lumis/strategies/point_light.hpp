@@ -18,7 +18,9 @@ class PointLight {
     static constexpr bool is_delta = true;
 
     PointLight(const glm::vec<3, T>& position, const glm::vec<3, T>& reference_point) noexcept
-        : distance_{real::length(position - reference_point)}, direction_{(position - reference_point) / distance_} {}
+        : distance_{real::length(position - reference_point)}, direction_{(position - reference_point) / distance_} {
+        LUMIS_ASSERT(!detail::is_nan(position) && !detail::is_nan(reference_point));
+    }
 
     // At distance 0, and one whose square is out of range, nothing is drawn.
     template <RealOf<T> R = T>

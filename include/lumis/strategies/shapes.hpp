@@ -36,6 +36,28 @@ struct Sphere {
     T radius;
 };
 
+namespace detail {
+
+// Whether any coordinate of a shape is NaN.
+template <std::floating_point T>
+[[nodiscard]] constexpr bool is_nan(const Triangle<T>& shape) noexcept {
+    return is_nan(shape.a) || is_nan(shape.b) || is_nan(shape.c);
+}
+template <std::floating_point T>
+[[nodiscard]] constexpr bool is_nan(const Parallelogram<T>& shape) noexcept {
+    return is_nan(shape.corner) || is_nan(shape.edge_u) || is_nan(shape.edge_v);
+}
+template <std::floating_point T>
+[[nodiscard]] constexpr bool is_nan(const Disk<T>& shape) noexcept {
+    return is_nan(shape.center) || is_nan(shape.normal) || is_nan(shape.radius);
+}
+template <std::floating_point T>
+[[nodiscard]] constexpr bool is_nan(const Sphere<T>& shape) noexcept {
+    return is_nan(shape.center) || is_nan(shape.radius);
+}
+
+}  // namespace detail
+
 template <std::floating_point T>
 Triangle(glm::vec<3, T>, glm::vec<3, T>, glm::vec<3, T>) -> Triangle<T>;
 template <std::floating_point T>

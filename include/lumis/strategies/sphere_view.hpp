@@ -23,6 +23,7 @@ class SphereView {
     // to which the distance is 0.
     [[gnu::always_inline]] SphereView(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point) noexcept
         : center_{sphere.center - reference_point}, radius_{sphere.radius}, axis_{Direction<T>{0, 0, 1}} {
+        LUMIS_ASSERT(!detail::is_nan(sphere) && !detail::is_nan(reference_point));
         // In double: just above the surface the rounding of a float distance is as large as the height.
         const glm::dvec3 center{center_};
         const double squared = glm::dot(center, center), r = radius_;

@@ -54,7 +54,7 @@ class SphericalRectangle {
     // x, y: along the edges, which have these lengths.
     [[gnu::always_inline]] SphericalRectangle(const glm::vec<3, T>& corner, const Direction<T>& x,
                                               const Direction<T>& y, T width, T height) noexcept
-        : frame_{x, y, facing(corner, glm::cross(x, y))},
+        : frame_{frame_along(x, y, facing(corner, glm::cross(x, y)))},
           near_{frame_.to_local(corner)},
           far_{near_.x + width, near_.y + height} {
         const auto [x0, y0, z] = std::array{near_.x, near_.y, near_.z};
@@ -79,6 +79,12 @@ class SphericalRectangle {
             const T outer = turn_of_sum({y0 * x1, b}, {-x1 * y1, c});
             solid_angle_ = 2 * std::numbers::pi_v<T> * (outer - k_);
         }
+    }
+
+    // Edges that are not orthogonal, or have no length, make no rectangle, whatever its frame.
+    static Frame<T> frame_along(const Direction<T>& x, const Direction<T>& y, const Direction<T>& normal) noexcept {
+        if (detail::are_orthonormal(x, y, normal)) return {x, y, normal};
+        return Frame<T>{Direction<T>{0, 0, 1}};
     }
 
     // The one of two opposite normals to which z is negative.
