@@ -126,6 +126,7 @@ void pdf_n(const S& strategy, std::type_identity_t<std::span<const T>> x, std::t
 // weights[i] is the weight of technique `own` where the techniques have effective densities densities[0][i], densities[1][i],
 // and so on. The heuristic weighs by densities; a PointHeuristic needs none, its owner(x) is the answer.
 template <class H, std::floating_point T, std::size_t N>
+    requires DensityHeuristic<H, T, N>
 void mis_weight_n(const H& heuristic, std::size_t own, const std::array<std::span<const T>, N>& densities,
                   std::type_identity_t<std::span<T>> weights) {
     using L = NativeLanes<T>;
@@ -139,6 +140,7 @@ void mis_weight_n(const H& heuristic, std::size_t own, const std::array<std::spa
 
 // The weight of the technique that drew the samples, with densities `own`, against one other technique.
 template <class H, std::floating_point T>
+    requires DensityHeuristic<H, T, 2>
 void mis_weight_n(const H& heuristic, std::type_identity_t<std::span<const T>> own,
                   std::type_identity_t<std::span<const T>> other, std::span<T> weights) {
     mis_weight_n(heuristic, 0, std::array{own, other}, weights);

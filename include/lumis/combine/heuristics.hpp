@@ -10,6 +10,8 @@
 #include "lumis/core/assert.hpp"
 #include "lumis/core/real.hpp"
 
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -115,8 +117,8 @@ template <std::floating_point T, class Densities, class Share>
 }
 
 // The weights of lanes by the heuristic for numbers, one lane after the other.
-template <Real R, std::size_t N, class Heuristic>
-[[nodiscard, gnu::noinline]] R weight_lane_by_lane(const Heuristic& heuristic, std::size_t own,
+template <Real R, std::size_t N, class H>
+[[nodiscard, gnu::noinline]] R weight_lane_by_lane(const H& heuristic, std::size_t own,
                                                    std::span<const R, N> densities) noexcept {
     using T = scalar_of<R>;
     R weights;
@@ -131,8 +133,8 @@ template <Real R, std::size_t N, class Heuristic>
 // The share of technique `own` in the sum of all. Two comparisons find densities that need scaling or the policy: a share
 // so small that others, which were flushed to 0, may be missing in the sum; a sum that has overflowed or holds an Inf or a
 // NaN. All others take the short way.
-template <Real R, std::size_t N, class Heuristic, class Share>
-[[nodiscard, gnu::always_inline]] inline R weight_by_shares(const Heuristic& heuristic, std::size_t own,
+template <Real R, std::size_t N, class H, class Share>
+[[nodiscard, gnu::always_inline]] inline R weight_by_shares(const H& heuristic, std::size_t own,
                                                             std::span<const R, N> densities, Share share) noexcept {
     using T = scalar_of<R>;
     const R sum = sum_of(densities, [&](R density) { return share(density, T(1)); });
@@ -171,6 +173,25 @@ template <Real R>
 
 }  // namespace detail
 
+// A heuristic of densities: h(own, densities), called with a std::span of N of them or with one of any number.
+template <class H, class Scalar, std::size_t N = std::dynamic_extent>
+concept DensityHeuristic = requires(const H heuristic, std::span<const Scalar, N> densities) {
+    { heuristic(std::size_t{}, densities) } -> std::convertible_to<Scalar>;
+}
+|| requires(const H heuristic, std::span<const Scalar> densities) {
+    { heuristic(std::size_t{}, densities) } -> std::convertible_to<Scalar>;
+};
+
+// A heuristic that is told the point alone: owns(i, x), whether technique i has all the weight there.
+template <class H, class Point>
+concept PointHeuristic = requires(const H heuristic, const Point x) {
+    { heuristic.owns(std::size_t{}, x) } -> std::convertible_to<bool>;
+};
+
+// What weighs N techniques, the first argument of multi_sample and of one_sample.
+template <class H, class Scalar = float, class Point = glm::vec<3, Scalar>, std::size_t N = std::dynamic_extent>
+concept Heuristic = DensityHeuristic<H, Scalar, N> || PointHeuristic<H, Point>;
+
 // Weights in proportion to the densities: no other heuristic's variance is much lower (Veach 1997, theorem 9.2).
 struct BalanceHeuristic {
     // A technique that can draw the point gets a positive weight, unless it underflows: estimators need not compare it to 0.
@@ -192,6 +213,7 @@ struct PowerHeuristic {
     template <Real R, std::size_t N>
     [[nodiscard]] R operator()(std::size_t own, std::span<const R, N> densities) const noexcept {
         using T = scalar_of<R>;
+        LUMIS_ASSERT(beta >= 1);
         if (beta == 2) [[likely]]
             return detail::weight_by_shares(*this, own, densities, [](R p, T scale) {
                 const R scaled = real::rounded(R(p * scale));  // p * p may overflow
@@ -224,7 +246,9 @@ struct CutoffHeuristic {
     template <Real R, std::size_t N>
     [[nodiscard]] R operator()(std::size_t own, std::span<const R, N> densities) const noexcept {
         using T = scalar_of<R>;
-        const R threshold = static_cast<T>(alpha) * detail::largest_of(densities);
+        LUMIS_ASSERT(alpha >= 0 && alpha <= 1);
+        // Above 1 no technique would have a weight, not even the only one that drew a point.
+        const R threshold = static_cast<T>(real::min(alpha, 1.0)) * detail::largest_of(densities);
         return detail::weight_by_shares(*this, own, densities,
                                         [=](R p, T scale) { return real::select(p < threshold, R(T(0)), p * scale); });
     }
@@ -260,28 +284,25 @@ template <class H, Real R, std::size_t N>
 [[nodiscard, gnu::always_inline]] inline R weigh(const H& heuristic, std::size_t own,
                                                  std::span<const R, N> densities) noexcept {
     if constexpr (std::invocable<const H&, std::size_t, std::span<const R, N>>) {
-        return heuristic(own, densities);
+        return static_cast<R>(heuristic(own, densities));
     } else {
-        return heuristic(own, std::span<const R>{densities});
+        return static_cast<R>(heuristic(own, std::span<const R>{densities}));
     }
 }
 
 }  // namespace detail
 
-template <class H, class Point>
-concept PointHeuristic = requires(const H heuristic, const Point x) {
-    { heuristic.owns(std::size_t{}, x) } -> std::convertible_to<bool>;
-};
-
 // The weight of one technique from all effective densities, for hundreds of techniques known at run time.
-template <class H, std::floating_point T>
+template <class H, FloatOrDouble T>
+    requires DensityHeuristic<H, T>
 [[nodiscard]] T mis_weight(const H& heuristic, std::span<const T> densities, std::size_t own) noexcept {
-    return heuristic(own, densities);
+    return static_cast<T>(heuristic(own, densities));
 }
 
 // The weight of the technique that drew a point with effective density `own` = n p, against the others that could have:
 // what a path tracer needs at a hit.
-template <class H, std::floating_point T>
+template <class H, FloatOrDouble T>
+    requires DensityHeuristic<H, T>
 [[nodiscard]] T mis_weight(const H& heuristic, T own, std::convertible_to<T> auto... others) noexcept {
     const std::array densities{own, static_cast<T>(others)...};
     return detail::weigh(heuristic, 0, std::span{densities});
