@@ -4,8 +4,10 @@
 
 #include "lumis/combine/for_each_index.hpp"
 #include "lumis/combine/heuristics.hpp"
+#include "lumis/combine/integrand.hpp"
 #include "lumis/combine/nearest.hpp"
 #include "lumis/combine/technique.hpp"
+#include "lumis/core/lifetime.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/core/uniforms.hpp"
 
@@ -20,31 +22,30 @@ namespace lumis {
 
 namespace detail {
 
-// An integrand is called with the point if it takes one, else with the whole sample. A delta strategy's point comes with
-// a tag, which asks for the coefficient.
-template <class F, class Point, bool is_delta>
-inline constexpr bool takes_point =
-    is_delta ? std::invocable<F&, const Point&, delta_t> : std::invocable<F&, const Point&>;
+// The uniforms that S spends on a sample.
+template <class S, class U>
+[[nodiscard, gnu::always_inline]] constexpr UniformsOf<S> next_for(U& uniforms) {
+    return UniformsOf<S>(uniforms.template next<S::dimensions>());
+}
 
-template <bool is_delta, class F, class S>
-[[nodiscard]] constexpr decltype(auto) evaluate(F& f, const S& sample) {
-    constexpr bool of_point = takes_point<F, decltype(sample.value), is_delta>;
-    if constexpr (is_delta) {
-        static_assert(of_point || std::invocable<F&, const S&, delta_t>,
-                      "a delta strategy asks the integrand for its coefficient: f(x, lumis::delta)");
-        if constexpr (of_point) {
-            return f(sample.value, delta);
-        } else {
-            return f(sample, delta);
-        }
-    } else if constexpr (of_point) {
-        return f(sample.value);
+// A sample of S whose point, density and distance have the types that S names, if they only convert to them.
+template <class S, class Drawn>
+[[nodiscard, gnu::always_inline]] constexpr decltype(auto) as_promised(const Drawn& sample) {
+    using Point = typename S::Point;
+    using Scalar = typename S::Scalar;
+    constexpr bool same_types = std::same_as<std::remove_cvref_t<decltype(sample.value)>, Point> &&
+                                std::same_as<std::remove_cvref_t<decltype(sample.pdf)>, Scalar>;
+    if constexpr (same_types) {
+        return (sample);
+    } else if constexpr (requires { sample.distance; }) {
+        return LightSample<Point, Scalar>{Point(sample.value), static_cast<Scalar>(sample.pdf),
+                                          static_cast<Scalar>(sample.distance)};
     } else {
-        return f(sample);
+        return Sample<Point, Scalar>{Point(sample.value), static_cast<Scalar>(sample.pdf)};
     }
 }
 
-// A number is divided, which rounds once; of anything else no more is asked than that it scales.
+// The value over a divisor. A number is divided, which rounds once; other values need only scale.
 template <class Value, std::floating_point T>
 [[nodiscard]] constexpr auto quotient(const Value& value, T divisor) {
     if constexpr (std::same_as<Value, T>) {
@@ -54,9 +55,29 @@ template <class Value, std::floating_point T>
     }
 }
 
+// Strategies with a density.
+template <class... S>
+inline constexpr std::size_t number_of_smooth = (std::size_t{!DeltaStrategy<std::remove_cvref_t<S>>} + ... + 0);
+
+template <class H, std::size_t N, class S>
+concept Weighs = Heuristic<H, typename S::Scalar, typename S::Point, N>;
+
+// Where a single strategy has a density, its weight is 1 and no heuristic is asked; a technique is none even so.
+template <class H>
+concept NoTechnique = std::is_class_v<H> && !requires(const H technique) {
+    technique.strategy;
+};
+template <class H, class... S>
+concept NeverAsked = (number_of_smooth<S...> <= 1) && NoTechnique<H>;
+
 }  // namespace detail
 
-template <class Heuristic, class First, class... Rest>
+// H is a heuristic for these strategies, each of which may be a reference, see Held.
+template <class H, class First, class... Rest>
+concept HeuristicFor =
+    detail::Weighs<H, 1 + sizeof...(Rest), std::remove_cvref_t<First>> || detail::NeverAsked<H, First, Rest...>;
+
+template <class H, class First, class... Rest>
     requires Composable<First, Rest...>
 class Combination {
     using S0 = std::remove_cvref_t<First>;
@@ -80,7 +101,7 @@ class Combination {
     }
 
     template <std::size_t I>
-    [[nodiscard]] const auto& strategy() const noexcept {
+    [[nodiscard]] const auto& strategy() const noexcept LUMIS_LIFETIME_BOUND {
         return std::get<I>(strategies_);
     }
 
@@ -88,19 +109,26 @@ class Combination {
     // Each strategy is moved once, from the Take or Choose that holds it: some are large, and composing is done at every
     // point to be lit.
     template <class... Techniques>
-    constexpr Combination(const Heuristic& heuristic, std::array<Scalar, size> factors, Techniques&&... techniques)
+    constexpr Combination(const H& heuristic, std::array<Scalar, size> factors, Techniques&&... techniques)
         : heuristic_{heuristic}, factors_{factors}, strategies_{std::forward<Techniques>(techniques).strategy...} {}
 
-    // What one sample of technique I adds to an estimate: its weight times f / (factor_I pdf). Where the integrand takes
-    // the point alone, no light is asked how far away it is.
+    // What one sample of technique I adds to an estimate of the integral of f: weight f / (factor_I pdf).
     template <std::size_t I, class F, class U>
     [[nodiscard]] auto draw(F& f, U& uniforms) const {
-        constexpr int dimensions = Nth<I>::dimensions;
-        if constexpr (detail::takes_point<F, Point, is_delta<I>> && detail::SamplesPoints<Nth<I>>) {
-            return weighted<I>(f, strategy<I>().sample_point(uniforms.template next<dimensions>()));
+        using S = Nth<I>;
+        if constexpr (Takes<F, Point, is_delta<I>> && detail::SamplesPoints<S>) {
+            return contribution<I>(f, strategy<I>().sample_point(detail::next_for<S>(uniforms)));
         } else {
-            return weighted<I>(f, strategy<I>().sample(uniforms.template next<dimensions>()));
+            return contribution<I>(f, detail::as_promised<S>(strategy<I>().sample(detail::next_for<S>(uniforms))));
         }
+    }
+
+    // The same as the type that another technique's is of.
+    template <class Value, std::size_t I, class F, class U>
+    [[nodiscard]] Value draw_as(F& f, U& uniforms) const {
+        static_assert(std::convertible_to<decltype(draw<I>(f, uniforms)), Value>,
+                      "an integrand returns one type, whichever technique drew its point");
+        return Value(draw<I>(f, uniforms));
     }
 
     [[nodiscard]] constexpr Scalar factor(std::size_t i) const noexcept { return factors_[i]; }
@@ -110,33 +138,38 @@ class Combination {
     using Nth = std::remove_cvref_t<std::tuple_element_t<I, std::tuple<First, Rest...>>>;
     template <std::size_t I>
     static constexpr bool is_delta = DeltaStrategy<Nth<I>>;
+    static constexpr std::size_t number_of_smooth = detail::number_of_smooth<First, Rest...>;
 
-    template <std::size_t I, class F, class S>
-    [[nodiscard, gnu::always_inline]] auto weighted(F& f, const S& sample) const {
-        constexpr bool only_point = detail::takes_point<F, Point, is_delta<I>>;
-        using Value = decltype(detail::evaluate<is_delta<I>>(f, seen<I, only_point>(sample)) * Scalar{});
-        const Scalar own = factors_[I] * sample.pdf;
-        if (!(own > 0)) return Value{};
-        if constexpr (is_delta<I> || number_of_smooth == 1) {
-            const auto& whole = seen<I, only_point>(sample);
-            return Value(detail::quotient(detail::evaluate<is_delta<I>>(f, whole), own));
+    template <std::size_t I, class F, class Drawn>
+    [[nodiscard, gnu::always_inline]] auto contribution(F& f, const Drawn& sample) const {
+        constexpr bool only_point = Takes<F, Point, is_delta<I>>;
+        using Seen = std::remove_cvref_t<decltype(seen<I, only_point>(sample))>;
+        if constexpr (!IntegrandOfSamples<F, Seen, Scalar, is_delta<I>>) {
+            detail::require_integrand<F, Seen, Scalar, is_delta<I>>();
+            return Scalar{};
         } else {
-            const Scalar weight = weight_given<I>(sample.value, [&] { return own; });
-            if constexpr (!requires { requires Heuristic::is_positive; }) {
-                if (!(weight > 0)) return Value{};
+            using Value = detail::ScaledBy<detail::ResultOf<F, Seen, is_delta<I>>, Scalar>;
+            const Scalar own = factors_[I] * sample.pdf;
+            if (!(own > 0)) return Value{};
+            if constexpr (is_delta<I> || number_of_smooth == 1) {
+                const auto& whole = seen<I, only_point>(sample);
+                return Value(detail::quotient(detail::evaluate<is_delta<I>>(f, whole), own));
+            } else {
+                const Scalar weight = weight_given<I>(sample.value, [&] { return own; });
+                if constexpr (!requires { requires H::is_positive; }) {
+                    if (!(weight > 0)) return Value{};
+                }
+                const auto& whole = seen<I, only_point>(sample);
+                return Value(detail::evaluate<false>(f, whole) * (weight / own));
             }
-            const auto& whole = seen<I, only_point>(sample);
-            return Value(detail::evaluate<false>(f, whole) * (weight / own));
         }
     }
 
     // A sample of technique I as an integrand sees it. Where lights are combined it has the distance to the nearest of
     // them, whichever technique drew it and whatever the counts: the integrand is the same function for all.
-    template <std::size_t I, bool only_point, class S>
-    [[nodiscard]] decltype(auto) seen(const S& sample) const noexcept {
-        constexpr bool is_delta_light = is_delta<I> && requires {
-            sample.distance;
-        };
+    template <std::size_t I, bool only_point, class Drawn>
+    [[nodiscard]] decltype(auto) seen(const Drawn& sample) const noexcept {
+        constexpr bool is_delta_light = is_delta<I> && DrawsDistance<Nth<I>>;
         if constexpr (only_point || size == 1 || is_delta_light) {
             return (sample);
         } else if constexpr (KnowNearest<S0, std::remove_cvref_t<Rest>...>) {
@@ -154,7 +187,7 @@ class Combination {
         if constexpr (is_delta<I>) {
             return 0;
         } else {
-            return factors_[I] > 0 ? factors_[I] * strategy<I>().pdf(x) : Scalar(0);
+            return factors_[I] > 0 ? factors_[I] * static_cast<Scalar>(strategy<I>().pdf(x)) : Scalar(0);
         }
     }
 
@@ -163,7 +196,7 @@ class Combination {
     [[nodiscard]] Scalar weight_given(const Point& x, Own own) const noexcept {
         if constexpr (number_of_smooth == 1 && !is_delta<I>) {
             return own() > 0 ? Scalar(1) : Scalar(0);
-        } else if constexpr (PointHeuristic<Heuristic, Point>) {
+        } else if constexpr (PointHeuristic<H, Point>) {
             return heuristic_.owns(I, x) ? Scalar(1) : Scalar(0);
         } else {
             std::array<Scalar, size> q{};
@@ -178,10 +211,7 @@ class Combination {
         }
     }
 
-    static constexpr std::size_t number_of_smooth =
-        std::size_t{!DeltaStrategy<S0>} + (std::size_t{!DeltaStrategy<std::remove_cvref_t<Rest>>} + ... + 0);
-
-    [[no_unique_address]] Heuristic heuristic_;
+    [[no_unique_address]] H heuristic_;
     std::array<Scalar, size> factors_;
     std::tuple<First, Rest...> strategies_;
 };

@@ -8,8 +8,9 @@
 namespace lumis {
 
 template <class S>
-using Held =
-    std::conditional_t<std::is_lvalue_reference_v<S> && !std::is_trivially_destructible_v<std::remove_cvref_t<S>>,
-                       const std::remove_cvref_t<S>&, std::remove_cvref_t<S>>;
+concept HeldByReference = std::is_lvalue_reference_v<S> && !std::is_trivially_destructible_v<std::remove_cvref_t<S>>;
+
+template <class S>
+using Held = std::conditional_t<HeldByReference<S>, const std::remove_cvref_t<S>&, std::remove_cvref_t<S>>;
 
 }  // namespace lumis

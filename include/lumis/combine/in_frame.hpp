@@ -3,6 +3,7 @@
 
 #include "lumis/combine/held.hpp"
 #include "lumis/core/frame.hpp"
+#include "lumis/core/lifetime.hpp"
 #include "lumis/core/strategy.hpp"
 
 #include <utility>
@@ -61,6 +62,11 @@ template <class S>
     requires Strategy<std::remove_cvref_t<S>>
 [[nodiscard]] constexpr auto in_frame(const Frame<typename std::remove_cvref_t<S>::Scalar>& frame, S&& local) {
     return InFrame<Held<S>>{frame, std::forward<S>(local)};
+}
+template <class S>
+    requires Strategy<S> && HeldByReference<S&>
+[[nodiscard]] constexpr auto in_frame(const Frame<typename S::Scalar>& frame, S& local LUMIS_LIFETIME_BOUND) {
+    return InFrame<Held<S&>>{frame, local};
 }
 
 }  // namespace lumis

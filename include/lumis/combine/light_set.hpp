@@ -7,6 +7,7 @@
 
 #include "lumis/combine/held.hpp"
 #include "lumis/combine/nearest.hpp"
+#include "lumis/core/lifetime.hpp"
 #include "lumis/core/spannable.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/strategies/alias_table.hpp"
@@ -59,15 +60,14 @@ class LightSet {
     // weights: a table, or what one is made of; throws as that does, and if a range of lights is of another size.
     // No lights and no weights are an empty set.
     template <class Weights>
-    LightSet(Lights lights, Weights&& weights)
+        requires(!std::is_reference_v<Table>)
+    LightSet(Lights lights LUMIS_LIFETIME_BOUND, Weights&& weights)
         : lights_{std::forward<Lights>(lights)}, table_{table_of(std::forward<Weights>(weights))} {
-        if constexpr (requires { std::size(lights_); }) {
-            const std::size_t count = std::size(lights_);
-            if (count != table_.size() && !(count == 0 && table_.empty())) {
-                throw std::invalid_argument("lumis: " + std::to_string(count) + " lights got " +
-                                            std::to_string(table_.size()) + " weights");
-            }
-        }
+        require_same_size();
+    }
+    LightSet(Lights lights LUMIS_LIFETIME_BOUND, Table weights LUMIS_LIFETIME_BOUND) requires std::is_reference_v<Table>
+        : lights_{std::forward<Lights>(lights)}, table_{weights} {
+        require_same_size();
     }
 
     // True if no light has a weight above 0: then nothing is drawn.
@@ -95,7 +95,7 @@ class LightSet {
     // The same but for the distance.
     [[nodiscard]] Sample<Point, Scalar> sample_point(glm::vec<dimensions, Scalar> u) const noexcept {
         const auto drawn = sample_one(u).sample;
-        return {drawn.value, drawn.pdf > 0 ? pdf(drawn.value) : Scalar(0)};
+        return {Point(drawn.value), drawn.pdf > 0 ? pdf(drawn.value) : Scalar(0)};
     }
 
     [[nodiscard]] Scalar pdf(const Point& x) const noexcept {
@@ -131,10 +131,20 @@ class LightSet {
         return {selected.value, sample};
     }
     [[nodiscard]] Scalar pdf_of(std::size_t index, const Point& x) const noexcept {
-        return table_.pdf(index) * light(index).pdf(x);
+        return table_.pdf(index) * static_cast<Scalar>(light(index).pdf(x));
     }
 
   private:
+    void require_same_size() const {
+        if constexpr (requires { std::size(lights_); }) {
+            const std::size_t count = std::size(lights_);
+            if (count != table_.size() && !(count == 0 && table_.empty())) {
+                throw std::invalid_argument("lumis: " + std::to_string(count) + " lights got " +
+                                            std::to_string(table_.size()) + " weights");
+            }
+        }
+    }
+
     // A table has at least one weight: that of an empty set is 0.
     template <class Weights>
     static decltype(auto) table_of(Weights&& weights) {
@@ -153,7 +163,7 @@ class LightSet {
         for (std::size_t i = 0; i < table_.size(); ++i) {
             if (!(table_.pdf(i) > 0)) continue;
             const auto& one = light(i);
-            sum += table_.pdf(i) * one.pdf(x);
+            sum += table_.pdf(i) * static_cast<Scalar>(one.pdf(x));
             visit(i, one);
         }
         return density_or_zero(sum);

@@ -5,6 +5,7 @@
 #include "lumis/combine/for_each_index.hpp"
 #include "lumis/combine/nearest.hpp"
 #include "lumis/combine/technique.hpp"
+#include "lumis/core/lifetime.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/strategy.hpp"
 
@@ -41,9 +42,10 @@ class Mixture {
     static_assert(!(DeltaStrategy<S0> || ... || DeltaStrategy<std::remove_cvref_t<Rest>>),
                   "a delta strategy has no density to mix: select it by one_sample");
 
-    // Parts of probability 0 are left out. Where the probabilities sum to less than 1, the rest draws nothing.
-    explicit constexpr Mixture(Choose<First> first, Choose<Rest>... rest)
-        : probabilities_{first.probability, rest.probability...},
+    // Parts of probability 0 are left out. Where the probabilities sum to less than 1, the rest draws nothing; they may not
+    // sum to more.
+    explicit constexpr Mixture(Choose<First> first LUMIS_LIFETIME_BOUND, Choose<Rest>... rest LUMIS_LIFETIME_BOUND)
+        : probabilities_{detail::selectable(std::array<Scalar, size>{first.probability, rest.probability...})},
           parts_{std::forward<First>(first.strategy), std::forward<Rest>(rest.strategy)...} {}
 
     // u.x selects the part, which gets the other numbers: stretching u.x for it would leave a rare part few bits.
@@ -57,7 +59,7 @@ class Mixture {
     [[nodiscard]] Scalar pdf(const Point& x) const noexcept {
         Scalar sum = 0;
         detail::for_each_index<size>([&](auto i) {
-            if (probabilities_[i] > 0) sum += probabilities_[i] * std::get<i>(parts_).pdf(x);
+            if (probabilities_[i] > 0) sum += probabilities_[i] * static_cast<Scalar>(std::get<i>(parts_).pdf(x));
         });
         return density_or_zero(sum);
     }
@@ -105,7 +107,7 @@ class Mixture {
             }
         }();
         if (!(drawn.pdf > 0)) return {};
-        Result result{drawn.value, pdf(drawn.value)};
+        Result result{Point(drawn.value), pdf(drawn.value)};
         if constexpr (with_distance) {
             result.distance = detail::nearest_along<I>(parts_, drawn.value, detail::own_distance<Scalar>(drawn));
         }

@@ -5,14 +5,14 @@
 
 namespace lumis {
 
-template <class Heuristic, class... S>
-class MultiSample : public Combination<Heuristic, S...> {
-    using Base = Combination<Heuristic, S...>;
+template <class H, class... S>
+class MultiSample : public Combination<H, S...> {
+    using Base = Combination<H, S...>;
 
   public:
     using typename Base::Scalar;
 
-    explicit constexpr MultiSample(const Heuristic& heuristic, Take<S>&&... techniques)
+    explicit constexpr MultiSample(const H& heuristic, Take<S>&&... techniques)
         : Base{heuristic, {static_cast<Scalar>(techniques.count)...}, std::move(techniques)...},
           counts_{techniques.count...} {}
 
@@ -21,11 +21,12 @@ class MultiSample : public Combination<Heuristic, S...> {
     // if it cannot be called with the point alone; a delta strategy calls f(x, lumis::delta), with weight 1.
     template <class F, UniformSource<Scalar> U>
     [[nodiscard]] auto estimate(F&& f, U&& uniforms) const {
-        decltype(this->template draw<0>(f, uniforms)) sum{};
+        using Value = decltype(this->template draw<0>(f, uniforms));
+        Value sum{};
         detail::for_each_index<Base::size>([&](auto i) {
             for (int k = 0; k < counts_[i]; ++k) {
-                const auto value = this->template draw<i>(f, uniforms);
-                sum = i == 0 && k == 0 ? value : sum + value;
+                const Value value = this->template draw_as<Value, i>(f, uniforms);
+                sum = i == 0 && k == 0 ? value : Value(sum + value);
             }
         });
         return sum;
@@ -35,10 +36,15 @@ class MultiSample : public Combination<Heuristic, S...> {
     std::array<int, sizeof...(S)> counts_;
 };
 
-template <class Heuristic, class First, class... Rest>
-    requires Composable<First, Rest...>
-[[nodiscard]] constexpr auto multi_sample(const Heuristic& heuristic, Take<First> first, Take<Rest>... rest) {
-    return MultiSample<Heuristic, First, Rest...>{heuristic, std::move(first), std::move(rest)...};
+template <class... S>
+void multi_sample(Take<S>... the_first_argument_must_be_a_heuristic) = delete;
+
+// heuristic: BalanceHeuristic{}, PowerHeuristic{}, or another Heuristic.
+template <class H, class First, class... Rest>
+    requires HeuristicFor<H, First, Rest...> && Composable<First, Rest...>
+[[nodiscard]] constexpr auto multi_sample(const H& heuristic, Take<First> first LUMIS_LIFETIME_BOUND,
+                                          Take<Rest>... rest LUMIS_LIFETIME_BOUND) {
+    return MultiSample<H, First, Rest...>{heuristic, std::move(first), std::move(rest)...};
 }
 
 }  // namespace lumis

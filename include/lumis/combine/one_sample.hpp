@@ -5,28 +5,30 @@
 
 namespace lumis {
 
-template <class Heuristic, class... S>
-class OneSample : public Combination<Heuristic, S...> {
-    using Base = Combination<Heuristic, S...>;
+template <class H, class... S>
+class OneSample : public Combination<H, S...> {
+    using Base = Combination<H, S...>;
 
   public:
     using typename Base::Scalar;
 
-    explicit constexpr OneSample(const Heuristic& heuristic, Choose<S>&&... techniques)
-        : Base{heuristic, {techniques.probability...}, std::move(techniques)...} {}
+    explicit constexpr OneSample(const H& heuristic, Choose<S>&&... techniques)
+        : Base{heuristic, detail::selectable(std::array<Scalar, sizeof...(S)>{techniques.probability...}),
+               std::move(techniques)...} {}
 
     // An unbiased estimate of the integral of f, which is called as by MultiSample::estimate. Spends one uniform on the
     // selection, none if the only technique is certain.
     template <class F, UniformSource<Scalar> U>
     [[nodiscard]] auto estimate(F&& f, U&& uniforms) const {
-        decltype(this->template draw<0>(f, uniforms)) result{};
+        using Value = decltype(this->template draw<0>(f, uniforms));
+        Value result{};
         const bool certain = Base::size == 1 && this->factor(0) >= 1;
-        Scalar remaining = certain ? Scalar(0) : uniforms.template next<1>().x;
+        Scalar remaining = certain ? Scalar(0) : glm::vec<1, Scalar>(uniforms.template next<1>()).x;
         bool selected = false;
         detail::for_each_index<Base::size>([&](auto i) {
             if (!selected && remaining < this->factor(i)) {
                 selected = true;
-                result = this->template draw<i>(f, uniforms);
+                result = this->template draw_as<Value, i>(f, uniforms);
             }
             remaining -= this->factor(i);
         });
@@ -34,10 +36,15 @@ class OneSample : public Combination<Heuristic, S...> {
     }
 };
 
-template <class Heuristic, class First, class... Rest>
-    requires Composable<First, Rest...>
-[[nodiscard]] constexpr auto one_sample(const Heuristic& heuristic, Choose<First> first, Choose<Rest>... rest) {
-    return OneSample<Heuristic, First, Rest...>{heuristic, std::move(first), std::move(rest)...};
+template <class... S>
+void one_sample(Choose<S>... the_first_argument_must_be_a_heuristic) = delete;
+
+// heuristic: BalanceHeuristic{}, PowerHeuristic{}, or another Heuristic.
+template <class H, class First, class... Rest>
+    requires HeuristicFor<H, First, Rest...> && Composable<First, Rest...>
+[[nodiscard]] constexpr auto one_sample(const H& heuristic, Choose<First> first LUMIS_LIFETIME_BOUND,
+                                        Choose<Rest>... rest LUMIS_LIFETIME_BOUND) {
+    return OneSample<H, First, Rest...>{heuristic, std::move(first), std::move(rest)...};
 }
 
 }  // namespace lumis

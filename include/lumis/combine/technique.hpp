@@ -2,13 +2,37 @@
 #pragma once
 
 #include "lumis/combine/held.hpp"
+#include "lumis/core/assert.hpp"
+#include "lumis/core/lifetime.hpp"
+#include "lumis/core/real.hpp"
 #include "lumis/core/strategy.hpp"
 
+#include <array>
 #include <concepts>
+#include <cstddef>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
 namespace lumis {
+
+// std::reference_wrapper of a strategy, without the header that defines it.
+template <class W>
+concept StrategyReference = requires(const W wrapper) {
+    requires Strategy<std::remove_const_t<typename W::type>>;
+    { wrapper.get() } -> std::same_as<typename W::type&>;
+};
+
+namespace detail {
+
+// A count of samples as an int, which counts any number of them that will ever be taken.
+template <std::integral Count>
+[[nodiscard]] constexpr int checked_count(Count count) noexcept {
+    LUMIS_ASSERT(count >= 0 && std::in_range<int>(count));
+    return static_cast<int>(count);
+}
+
+}  // namespace detail
 
 // S may be a reference, see Held.
 template <class S>
@@ -23,39 +47,62 @@ struct Choose {
     S strategy;
 };
 
-// `count` samples of a strategy; 0 leaves it out.
-template <class S>
+// `count` samples of a strategy, 0 or more; 0 leaves it out. A strategy that owns memory is kept by reference, see Held,
+// and so is that in std::cref(strategy). The latter spares a copy: a third of the cost of an estimate where a large
+// strategy is used once. Either must outlive the technique and what it is combined to.
+template <std::integral Count, class S>
     requires Strategy<std::remove_cvref_t<S>>
-[[nodiscard]] constexpr auto take(int count, S&& strategy) {
-    return Take<Held<S>>{count, std::forward<S>(strategy)};
+[[nodiscard]] constexpr auto take(Count count, S&& strategy) {
+    return Take<Held<S>>{detail::checked_count(count), std::forward<S>(strategy)};
+}
+template <std::integral Count, class S>
+    requires Strategy<S> && HeldByReference<S&>
+[[nodiscard]] constexpr auto take(Count count, S& strategy LUMIS_LIFETIME_BOUND) {
+    return Take<Held<S&>>{detail::checked_count(count), strategy};
+}
+template <std::integral Count, StrategyReference W>
+[[nodiscard]] constexpr auto take(Count count, W wrapper) {
+    return Take<const typename W::type&>{detail::checked_count(count), wrapper.get()};
 }
 
 // A strategy that is selected with a probability in [0, 1]; 0 leaves it out. Where the probabilities of a combination
-// sum to less than 1, the rest draws nothing.
+// sum to less than 1, the rest draws nothing; they may not sum to more. Kept as by take.
 template <class S>
     requires Strategy<std::remove_cvref_t<S>>
 [[nodiscard]] constexpr auto choose(std::convertible_to<double> auto probability, S&& strategy) {
     using Scalar = typename std::remove_cvref_t<S>::Scalar;
     return Choose<Held<S>>{static_cast<Scalar>(probability), std::forward<S>(strategy)};
 }
-
-// std::reference_wrapper of a strategy, without the header that defines it.
-template <class W>
-concept StrategyReference = requires(const W wrapper) {
-    requires Strategy<std::remove_const_t<typename W::type>>;
-    { wrapper.get() } -> std::same_as<typename W::type&>;
-};
-
-// std::cref(strategy) makes either hold a reference, which spares the copy: a third of the cost of an estimate where a
-// large strategy is used once. The strategy must then outlive the combination.
-template <StrategyReference W>
-[[nodiscard]] constexpr auto take(int count, W wrapper) {
-    return Take<const typename W::type&>{count, wrapper.get()};
+template <class S>
+    requires Strategy<S> && HeldByReference<S&>
+[[nodiscard]] constexpr auto choose(std::convertible_to<double> auto probability, S& strategy LUMIS_LIFETIME_BOUND) {
+    return Choose<Held<S&>>{static_cast<typename S::Scalar>(probability), strategy};
 }
 template <StrategyReference W>
 [[nodiscard]] constexpr auto choose(std::convertible_to<double> auto probability, W wrapper) {
     return Choose<const typename W::type&>{static_cast<typename W::type::Scalar>(probability), wrapper.get()};
 }
+
+namespace detail {
+
+// Probabilities by which one can select, from what a caller gave. They are asserted to be those already. Else a negative
+// one and a NaN count as 0, and what is beyond a sum of 1 is cut off, so that each is selected as often as its density says.
+template <std::floating_point T, std::size_t N>
+[[nodiscard]] constexpr std::array<T, N> selectable(std::array<T, N> probabilities) noexcept {
+    constexpr T one =
+        1 + static_cast<T>(N) * std::numeric_limits<T>::epsilon();  // those of ten equal parts sum to 1 + epsilon
+    T sum = 0;
+    for (T& probability : probabilities) {
+        LUMIS_ASSERT(probability >= 0);
+        probability = probability >= 0 ? probability : T(0);
+        LUMIS_ASSERT(sum + probability <= one);
+        if (!(sum + probability <= one)) probability = real::max(1 - sum, T(0));
+        sum += probability;
+    }
+    return probabilities;
+}
+
+}  // namespace detail
 
 // What must agree before strategies can be combined. A compiler names the one that fails.
 template <class S, class First>
