@@ -36,9 +36,6 @@ class MultiSample : public Combination<H, S...> {
     std::array<int, sizeof...(S)> counts_;
 };
 
-template <class... S>
-void multi_sample(Take<S>... the_first_argument_must_be_a_heuristic) = delete;
-
 // heuristic: BalanceHeuristic{}, PowerHeuristic{}, or another Heuristic.
 template <class H, class First, class... Rest>
     requires HeuristicFor<H, First, Rest...> && Composable<First, Rest...>
@@ -46,5 +43,8 @@ template <class H, class First, class... Rest>
                                           Take<Rest>... rest LUMIS_LIFETIME_BOUND) {
     return MultiSample<H, First, Rest...>{heuristic, std::move(first), std::move(rest)...};
 }
+
+template <class... S>
+void multi_sample(Take<S>... the_first_argument_must_be_a_heuristic) = delete;
 
 }  // namespace lumis

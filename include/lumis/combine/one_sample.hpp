@@ -36,9 +36,6 @@ class OneSample : public Combination<H, S...> {
     }
 };
 
-template <class... S>
-void one_sample(Choose<S>... the_first_argument_must_be_a_heuristic) = delete;
-
 // heuristic: BalanceHeuristic{}, PowerHeuristic{}, or another Heuristic.
 template <class H, class First, class... Rest>
     requires HeuristicFor<H, First, Rest...> && Composable<First, Rest...>
@@ -46,5 +43,8 @@ template <class H, class First, class... Rest>
                                         Choose<Rest>... rest LUMIS_LIFETIME_BOUND) {
     return OneSample<H, First, Rest...>{heuristic, std::move(first), std::move(rest)...};
 }
+
+template <class... S>
+void one_sample(Choose<S>... the_first_argument_must_be_a_heuristic) = delete;
 
 }  // namespace lumis

@@ -112,11 +112,15 @@ concept SamePoint = std::same_as<typename S::Point, typename First::Point>;
 template <class S, class First>
 concept SameMeasure = std::same_as<typename S::Measure, typename First::Measure>;
 
-template <class S, class First>
-concept ComposableWith = SameScalar<S, First> && SamePoint<S, First> && SameMeasure<S, First>;
-
 // Each may be a reference, see Held.
 template <class First, class... Rest>
-concept Composable = (ComposableWith<std::remove_cvref_t<Rest>, std::remove_cvref_t<First>> && ...);
+concept SameScalars = (SameScalar<std::remove_cvref_t<Rest>, std::remove_cvref_t<First>> && ...);
+template <class First, class... Rest>
+concept SamePoints = (SamePoint<std::remove_cvref_t<Rest>, std::remove_cvref_t<First>> && ...);
+template <class First, class... Rest>
+concept SameMeasures = (SameMeasure<std::remove_cvref_t<Rest>, std::remove_cvref_t<First>> && ...);
+
+template <class First, class... Rest>
+concept Composable = SameScalars<First, Rest...> && SamePoints<First, Rest...> && SameMeasures<First, Rest...>;
 
 }  // namespace lumis
