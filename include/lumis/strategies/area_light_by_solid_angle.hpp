@@ -25,6 +25,12 @@ template <Real R>
     return {real::select(seen, w, Direction<R>{}), real::select(seen, R(pdf), 0), real::select(seen, distance, 0)};
 }
 
+// Over a solid angle; 0 over none, and over one so small that its inverse is out of range.
+template <std::floating_point T>
+[[nodiscard]] T uniform_density(T solid_angle) noexcept {
+    return density_or_zero(real::quotient_where(solid_angle > 0, T(1), solid_angle));
+}
+
 }  // namespace detail
 
 // The sphere's cone of directions evenly (Shirley, Wang and Zimmerman 1996); from inside, all directions evenly.
@@ -78,14 +84,12 @@ class AreaLight<Triangle<T>, BySolidAngle> {
     static constexpr int dimensions = 2;
 
     [[gnu::always_inline]] AreaLight(const Triangle<T>& triangle, const glm::vec<3, T>& reference_point) noexcept
-        : view_{triangle, reference_point},
-          seen_{view_.corner(), view_.corner() + view_.edge_u(), view_.corner() + view_.edge_v(), view_.edge_u(),
-                view_.edge_v()},
-          pdf_{view_.edge_on() ? T(0) : density_or_zero(1 / seen_.solid_angle())} {}
+        : AreaLight{FlatShape<Triangle<T>>{triangle, reference_point}} {}
 
     // u.x cuts off a share of the solid angle by an arc from a to the edge bc; u.y goes along that arc.
     template <RealOf<T> R = T>
     [[nodiscard, gnu::always_inline]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+        if (!(pdf_ > 0)) return {};
         const Direction<R> w = seen_.sample(u);
         return detail::seen_at(w, pdf_, view_.distance_along(w));
     }
@@ -105,17 +109,24 @@ class AreaLight<Triangle<T>, BySolidAngle> {
 
     [[nodiscard]] T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
 
-    [[nodiscard]] T solid_angle() const noexcept { return view_.edge_on() ? T(0) : seen_.solid_angle(); }
+    [[nodiscard]] T solid_angle() const noexcept { return seen_.solid_angle(); }
 
   private:
+    [[gnu::always_inline]] explicit AreaLight(const FlatShape<Triangle<T>>& shape) noexcept
+        : view_{shape},
+          seen_{shape.corner, shape.corner + shape.edge_u, shape.corner + shape.edge_v, shape.edge_u, shape.edge_v},
+          pdf_{detail::uniform_density(seen_.solid_angle())} {}
+
     FlatView<Triangle<T>> view_;
     SphericalTriangle<T> seen_;
     T pdf_;
 };
 
-// A rectangle by Urena, Fajardo and King 2013, which moves along both edges evenly. A parallelogram that is not a
-// rectangle, and a rectangle so small that their sums of angles have no digits left, is split by a diagonal into two
-// spherical triangles. Both are exactly even over the solid angle, so the density does not tell them apart.
+// A rectangle by Urena, Fajardo and King 2013, which moves along both edges evenly. It is split by the diagonal from its
+// corner into two spherical triangles
+// - where it is not a rectangle but another parallelogram,
+// - where it is small or close by, and Urena's angles have no digits left.
+// Both ways are exactly even over the solid angle, so the density does not tell them apart.
 template <std::floating_point T>
 class AreaLight<Parallelogram<T>, BySolidAngle> {
   public:
@@ -125,33 +136,20 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     static constexpr int dimensions = 2;
 
     [[gnu::always_inline]] AreaLight(const Parallelogram<T>& shape, const glm::vec<3, T>& reference_point) noexcept
-        : view_{shape, reference_point}, rectangle_{view_.corner(), view_.edge_u(), view_.edge_v()} {
-        constexpr T epsilon = std::numeric_limits<T>::epsilon();
-        const glm::vec<3, T> corner = view_.corner(), u = view_.edge_u(), v = view_.edge_v();
-        const T square = glm::dot(u, u) * glm::dot(v, v), volume = glm::dot(corner, glm::cross(u, v));
-        solid_angle_ = rectangle_.solid_angle();
-        // What Urena's angles lose, epsilon over the solid angle, has to be below 1e-5 of the edges. They square the volume.
-        if (!(std::abs(glm::dot(u, v)) <= 4 * epsilon * real::sqrt(square) && is_squared_length(volume * volume) &&
-              solid_angle_ > 1e5f * epsilon)) {
-            halves_.emplace(
-                Halves{{corner, corner + u, corner + u + v, u, u + v}, {corner, corner + v, corner + u + v, v, u + v}});
-            const T first = halves_->first.solid_angle(), second = halves_->second.solid_angle();
-            solid_angle_ = !view_.edge_on() && first > 0 && second > 0 ? first + second : T(0);
-        }
-        pdf_ = density_or_zero(1 / solid_angle_);
-    }
+        : AreaLight{FlatShape<Parallelogram<T>>{shape, reference_point}} {}
 
     // u.x goes along the first edge and u.y along the second or, where the shape is split, u.x from the first edge by way
     // of the diagonal to the second, and u.y away from the corner.
     template <RealOf<T> R = T>
     [[nodiscard, gnu::always_inline]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+        if (!(pdf_ > 0)) return {};
         if (halves_) {
             const Direction<R> w = halves_->sample(u);
             return detail::seen_at(w, pdf_, view_.distance_along(w));
         }
         const glm::vec<3, R> position = rectangle_.sample(u);
         const R distance = real::length(position);
-        return detail::seen_at(position * (1 / distance), pdf_, distance * view_.unit());
+        return detail::seen_at(position * (1 / distance), pdf_, R(distance * unit_));
     }
 
     template <RealOf<T> R = T>
@@ -160,13 +158,7 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     }
 
     [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept {
-        if (!halves_) return rectangle_.invert(w);
-        const auto& [first, second] = *halves_;
-        const T share = halves_->share_of_first();
-        const glm::vec<3, T> across = glm::cross(view_.corner(), view_.edge_u() + view_.edge_v());  // of the diagonal
-        const bool in_first = glm::dot(w, across) * glm::dot(view_.edge_u(), across) > 0;
-        const glm::vec<2, T> u = in_first ? first.invert(w) : second.invert(w);
-        return {in_first ? u.x * share : 1 - u.x * (1 - share), u.y};
+        return halves_ ? halves_->invert(w) : rectangle_.invert(w);
     }
 
     // From the reference point to the light; infinity where w misses it.
@@ -180,32 +172,81 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     [[nodiscard]] T solid_angle() const noexcept { return solid_angle_; }
 
   private:
-    // Each from an edge to the diagonal, which may span half a turn.
-    struct Halves {
-        SphericalTriangle<T> first, second;
+    using Shape = FlatShape<Parallelogram<T>>;
+    using Vector = typename Shape::Vector;
 
-        [[nodiscard]] T share_of_first() const noexcept {
-            return first.solid_angle() / (first.solid_angle() + second.solid_angle());
+    [[gnu::always_inline]] explicit AreaLight(const Shape& shape) noexcept
+        : view_{shape},
+          rectangle_{shape.corner, shape.edge_u, shape.edge_v},
+          solid_angle_{rectangle_.solid_angle()},
+          unit_{static_cast<T>(shape.unit) * rectangle_.unit()} {
+        if (!(rectangle_.has_digits() && is_rectangle(shape))) {
+            halves_.emplace(shape);
+            solid_angle_ = halves_->solid_angle();
+        }
+        pdf_ = detail::uniform_density(solid_angle_);
+    }
+
+    // Whether its edges are at right angles, at least up to the rounding of T. To a reference point close by, that rounding
+    // is large.
+    [[nodiscard]] static bool is_rectangle(const Shape& shape) noexcept {
+        const auto dot = glm::dot(shape.edge_u, shape.edge_v);
+        if (dot == 0) return true;
+        const auto u = real::length(shape.edge_u), v = real::length(shape.edge_v);
+        const auto volume = glm::dot(shape.corner, detail::cross(shape.edge_u, shape.edge_v));
+        return std::abs(dot) <= 4 * std::numeric_limits<T>::epsilon() * u * v &&
+               32 * std::abs(volume) >= u * v * real::max(u, v);
+    }
+
+    // Two triangles, each from an edge at the corner to the diagonal.
+    class Halves {
+      public:
+        [[gnu::always_inline]] explicit Halves(const Shape& shape) noexcept
+            : Halves{shape.corner, shape.edge_u, shape.edge_v, shape.edge_u + shape.edge_v} {}
+
+        // 0 if the reference point lies at a vertex or in the plane.
+        [[nodiscard]] T solid_angle() const noexcept {
+            return share_ > 0 ? first_.solid_angle() + second_.solid_angle() : T(0);
         }
 
         template <Real R>
         [[nodiscard]] Direction<R> sample(glm::vec<2, R> u) const noexcept {
-            const T share = share_of_first();
+            const T rest = 1 - share_;
             return real::either(
-                u.x < share,
+                u.x < share_,
                 [&] {
-                    return first.sample(glm::vec<2, R>{u.x / share, u.y});
+                    return first_.sample(glm::vec<2, R>{u.x / share_, u.y});
                 },
                 [&] {
-                    return second.sample(glm::vec<2, R>{(1 - u.x) / (1 - share), u.y});
+                    return second_.sample(glm::vec<2, R>{real::quotient_where(rest > 0, R(1 - u.x), rest), u.y});
                 });
         }
+
+        [[nodiscard]] glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
+            const bool in_first = glm::dot(w, to_first_) > 0;
+            const glm::vec<2, T> u = in_first ? first_.invert(w) : second_.invert(w);
+            return {in_first ? u.x * share_ : 1 - u.x * (1 - share_), u.y};
+        }
+
+      private:
+        [[gnu::always_inline]] Halves(const Vector& a, const Vector& u, const Vector& v,
+                                      const Vector& diagonal) noexcept
+            : first_{a, a + u, a + diagonal, u, diagonal}, second_{a, a + v, a + diagonal, v, diagonal} {
+            const Vector across = detail::cross(a, diagonal);
+            to_first_ = glm::dot(u, across) > 0 ? across : -across;
+            if (first_.solid_angle() > 0 && second_.solid_angle() > 0)
+                share_ = first_.solid_angle() / (first_.solid_angle() + second_.solid_angle());
+        }
+
+        SphericalTriangle<T> first_, second_;
+        glm::vec<3, T> to_first_;  // normal to the plane through the diagonal
+        T share_{0};               // of the first in the solid angle
     };
 
     FlatView<Parallelogram<T>> view_;
     SphericalRectangle<T> rectangle_;
-    std::optional<Halves> halves_;  // where it is not a rectangle, or too small a one
-    T solid_angle_, pdf_;
+    std::optional<Halves> halves_;  // where the shape is split
+    T solid_angle_, pdf_, unit_;
 };
 
 }  // namespace lumis

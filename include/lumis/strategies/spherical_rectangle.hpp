@@ -1,42 +1,109 @@
 // A rectangle projected onto the unit sphere about a reference point, drawn evenly by solid angle.
-// Urena, Fajardo and King 2013, "An Area-Preserving Parametrization for Spherical Rectangles".
+// Urena, Fajardo and King 2013, "An Area-Preserving Parametrization for Spherical Rectangles". In a frame with axes along
+// the edges the rectangle is [x0, x1] x [y0, y1] at the height z0 < 0:
+//
+//       y1  d ---------- c
+//           |            |       u.x moves the line at x from the edge ad to the edge bc, u.y a point along that line.
+//       y0  a ---------- b
+//           x0          x1
 #pragma once
 
 #include "lumis/core/elementary.hpp"
 #include "lumis/core/frame.hpp"
 #include "lumis/core/sample.hpp"
+#include "lumis/strategies/flat_shape.hpp"
 
 #include <glm/geometric.hpp>
 
-#include <array>
+#include <cmath>
 #include <concepts>
+#include <limits>
 #include <numbers>
 
 namespace lumis {
 
 template <std::floating_point T>
 class SphericalRectangle {
+    using Wide = detail::Wide<T>;
+
   public:
-    // A corner relative to the reference point, and two orthogonal edges.
-    [[gnu::always_inline]] SphericalRectangle(const glm::vec<3, T>& corner, const glm::vec<3, T>& edge_u,
-                                              const glm::vec<3, T>& edge_v) noexcept
-        : SphericalRectangle{corner, edge_u / real::length(edge_u), edge_v / real::length(edge_v), real::length(edge_u),
-                             real::length(edge_v)} {}
+    using Vector = glm::vec<3, Wide>;
+
+    // A corner relative to the reference point, and two orthogonal edges. 0 sr without area and edge-on.
+    [[gnu::always_inline]] SphericalRectangle(const Vector& corner, const Vector& edge_u,
+                                              const Vector& edge_v) noexcept {
+        const Wide width = real::length(edge_u), height = real::length(edge_v);
+        if (!(width > 0 && height > 0)) return;
+        const Vector x = edge_u / width, y = edge_v / height, up = glm::cross(x, y);
+        const Wide above = glm::dot(corner, up), z = -std::abs(above);
+        if (!(z < 0)) return;
+        frame_ = {Direction<T>(x), Direction<T>(y), Direction<T>(above > 0 ? -up : up)};
+        const Wide x0 = glm::dot(corner, x), y0 = glm::dot(corner, y), x1 = x0 + width, y1 = y0 + height;
+        unit_ = detail::power_of_two(static_cast<T>(real::max(width, height)));
+        near_ = Vector{x0, y0, z} * (1 / Wide{unit_});
+        far_ = glm::vec<2, Wide>{x1, y1} * (1 / Wide{unit_});
+        const Wide zz = z * z, xx0 = x0 * x0 + zz, xx1 = x1 * x1 + zz, yy0 = y0 * y0 + zz, yy1 = y1 * y1 + zz;
+        const Wide inverse = 1 / real::sqrt(yy0);
+        b0_ = static_cast<T>(-y0 * inverse);
+        b1_ = static_cast<T>(y1 / real::sqrt(yy1));
+        z_share_ = static_cast<T>(z * inverse);
+
+        // Distances of the corners. A turn less the angles at a and d; and the angles at b and c.
+        const Wide a = real::sqrt(xx0 + y0 * y0), b = real::sqrt(xx1 + y0 * y0);
+        const Wide c = real::sqrt(xx1 + y1 * y1), d = real::sqrt(xx0 + y1 * y1);
+        const Wide k = 1 - turn_of_sum<Wide>(z, {x0 * y1, d}, {-x0 * y0, a});
+        k_ = static_cast<T>(k);
+        if (x0 * x1 + y0 * y1 + zz < Wide(-0.75) * a * c) {
+            // The diagonal ac spans nearly half a turn. Then of a wide rectangle the sum of angles has digits enough.
+            const Wide outer = turn_of_sum<Wide>(z, {y0 * x1, b}, {-x1 * y1, c});
+            solid_angle_ = static_cast<T>(2 * std::numbers::pi_v<Wide> * (outer - k));
+            has_digits_ = solid_angle_ > T(0.5);
+            if (has_digits_) return;
+        }
+        // Half the solid angles E of the triangles abc and acd have the tangents volume / sum (Van Oosterom and Strackee
+        // 1983), where sum is 1 plus the cosines of the sides. For unit vertices
+        //     sum of abc = (1 + a.b)(1 + b.c) + (b x a).(b x c),
+        // which cancels nowhere unless the diagonal ac spans nearly half a turn. Here it is times a b^2 c, that of acd times c d^2 a.
+        const Wide area = width * height, volume = -z * area, w2 = width * width, h2 = height * height;
+        const Wide ab = sum_of_products(a * b, x0 * x1 + yy0, w2 * yy0),
+                   cd = sum_of_products(c * d, x0 * x1 + yy1, w2 * yy1);
+        const Wide bc = sum_of_products(b * c, y0 * y1 + xx1, h2 * xx1),
+                   da = sum_of_products(d * a, y0 * y1 + xx0, h2 * xx0);
+        const Wide abc = real::rounded(ab * bc + area * x1 * y0), acd = real::rounded(cd * da + area * x0 * y1);
+        const Wide turn =
+            signed_turn_of(real::rounded(abc * acd - volume * volume * (b * d)), volume * (abc * d + acd * b));
+        solid_angle_ = static_cast<T>(4 * std::numbers::pi_v<Wide> * turn);
+        // Urena's angles lose epsilon over the solid angle, and more at a grazing view, z / rho; and those of a narrow
+        // rectangle that is much longer than it is far away are too near to half a turn.
+        constexpr Wide enough = 1e5f * std::numeric_limits<T>::epsilon();
+        const Wide outside_x = real::max(real::max(x0, -x1), 0), outside_y = real::max(real::max(y0, -y1), 0);
+        const Wide rho_squared = outside_x * outside_x + outside_y * outside_y, least = a * c / 32;
+        const Wide omega = solid_angle_, grazing = omega * 8 / enough;
+        has_digits_ = omega > enough && grazing * grazing * zz > rho_squared &&
+                      (omega > Wide(0.5) || (abc >= least * (b * b) && acd >= least * (d * d)));
+    }
 
     [[nodiscard]] T solid_angle() const noexcept { return solid_angle_; }
+
+    // Whether samples are even up to 1e-4 of the edges.
+    [[nodiscard]] bool has_digits() const noexcept { return has_digits_; }
+
+    // The unit of its points.
+    [[nodiscard]] T unit() const noexcept { return unit_; }
 
     // Relative to the reference point, on the rectangle. u.x goes along the first edge, u.y along the second.
     template <RealOf<T> R = T>
     [[nodiscard, gnu::always_inline]] glm::vec<3, R> sample(glm::vec<2, R> u) const noexcept {
         const auto a = unit_circle(R(u.x * (solid_angle_ * (std::numbers::inv_pi_v<T> / 2)) + k_));
-        const R f = (a.x * b0_ - b1_) / a.y;
-        // f^2 + b0^2 - 1, with 1 - b0^2 formed as a square.
-        const R below = real::max(R((f - z_share_) * (f + z_share_)), 0);
-        const R x = real::clamp(real::copysign(R(near_.z / real::sqrt(below)), f), near_.x, far_.x);
+        // x = z0 / sqrt(f^2 + b0^2 - 1) of the sign of f = numerator / sin a, with 1 - b0^2 formed as a square. The numerator
+        // is negative.
+        const R numerator = real::rounded(a.x * b0_ - b1_), share = z_share_ * a.y;
+        const R below = real::rounded(numerator - share) * real::rounded(numerator + share);
+        const R x = real::clamp(ratio(R(near_.z * a.y), below), near_.x, far_.x);
         const R d = length(x, R(near_.z));
         const R h0 = near_.y / length(d, R(near_.y)), h1 = far_.y / length(d, R(far_.y));
-        const R h = h0 + u.y * (h1 - h0);
-        const R y = real::clamp(R(h * d / real::sqrt(R((1 - h) * (1 + h)))), near_.y, far_.y);
+        const R h = real::rounded(h0 + u.y * (h1 - h0));
+        const R y = real::clamp(ratio(R(h * d), R(real::rounded(1 - h) * real::rounded(1 + h))), near_.y, far_.y);
         return frame_.to_world(glm::vec<3, R>{x, y, near_.z});
     }
 
@@ -46,72 +113,45 @@ class SphericalRectangle {
         const T x = local.x * (near_.z / local.z), y = local.y * (near_.z / local.z);
         const T d = length(x, near_.z);
         const T h0 = near_.y / length(d, near_.y), h1 = far_.y / length(d, far_.y);
-        const T a = turn_of_sum({near_.y * x, length(x, near_.y, near_.z)}, {-x * far_.y, length(x, far_.y, near_.z)});
+        const T a = turn_of_sum<T>(near_.z, {near_.y * x, length(d, near_.y)}, {-x * far_.y, length(d, far_.y)});
         return {(a - k_) * (2 * std::numbers::pi_v<T>) / solid_angle_, (y / length(d, y) - h0) / (h1 - h0)};
     }
 
   private:
-    // x, y: along the edges, which have these lengths.
-    [[gnu::always_inline]] SphericalRectangle(const glm::vec<3, T>& corner, const Direction<T>& x,
-                                              const Direction<T>& y, T width, T height) noexcept
-        : frame_{frame_along(x, y, facing(corner, glm::cross(x, y)))},
-          near_{frame_.to_local(corner)},
-          far_{near_.x + width, near_.y + height} {
-        const auto [x0, y0, z] = std::array{near_.x, near_.y, near_.z};
-        const auto [x1, y1] = std::array{far_.x, far_.y};
-        const T inverse = 1 / length(y0, z);
-        b0_ = -y0 * inverse;
-        z_share_ = z * inverse;
-        b1_ = y1 / length(y1, z);
-        const T a = length(x0, y0, z), b = length(x1, y0, z), c = length(x1, y1, z), d = length(x0, y1, z);
-        k_ = 1 - turn_of_sum({x0 * y1, d}, {-x0 * y0, a});
-        // Half the solid angles of the triangles a, b, c and a, c, d have the tangents volume / first and volume / second
-        // (Van Oosterom and Strackee 1983), where first / (a b c) is one plus the cosines of the sides.
-        const T ac = x0 * x1 + y0 * y1 + z * z;
-        const T first = (a * b + x0 * x1 + y0 * y0 + z * z) * c + (x1 * x1 + y0 * y1 + z * z) * a + ac * b;
-        const T second = (a * d + x0 * x0 + y0 * y1 + z * z) * c + (x0 * x1 + y1 * y1 + z * z) * a + ac * d;
-        const T volume = -z * width * height;
-        if (4 * first >= a * b * c && 4 * second >= a * c * d) {
-            solid_angle_ =
-                4 * std::numbers::pi_v<T> * signed_turn_of(first * second - volume * volume, volume * (first + second));
-        } else {
-            // Those cosines cancel where a side spans nearly half a turn; the sum of angles is right to an epsilon of a turn.
-            const T outer = turn_of_sum({y0 * x1, b}, {-x1 * y1, c});
-            solid_angle_ = 2 * std::numbers::pi_v<T> * (outer - k_);
-        }
-    }
-
-    // Edges that are not orthogonal, or have no length, make no rectangle, whatever its frame.
-    static Frame<T> frame_along(const Direction<T>& x, const Direction<T>& y, const Direction<T>& normal) noexcept {
-        if (detail::are_orthonormal(x, y, normal)) return {x, y, normal};
-        return Frame<T>{Direction<T>{0, 0, 1}};
-    }
-
-    // The one of two opposite normals to which z is negative.
-    static Direction<T> facing(const glm::vec<3, T>& corner, const Direction<T>& normal) noexcept {
-        return glm::dot(corner, normal) > 0 ? -normal : normal;
-    }
-
     template <Real R>
     static R length(R x, R y) noexcept {
         return real::sqrt(R(x * x + y * y));
     }
-    static T length(T x, T y, T z) noexcept { return real::length(glm::vec<3, T>{x, y, z}); }
+
+    // x / sqrt(square), or next to infinity where rounding has left no square.
+    template <Real R>
+    static R ratio(R x, R square) noexcept {
+        return x / real::sqrt(real::max(square, std::numeric_limits<T>::min()));
+    }
+
+    // p q + p.q of the lengths of p and q, their product, and the square of p x q: for p and q nearly opposite to each
+    // other the sum has no digits.
+    static Wide sum_of_products(Wide lengths, Wide dot, Wide cross_squared) noexcept {
+        return dot >= 0 ? lengths + dot : cross_squared / (lengths - dot);
+    }
 
     // The sum of two angles at corners, in turns. The planes from the reference point through the edges that meet at (x, y)
     // have an angle of cosine and sine in proportion to -+x y, which is p.x, and |z| times the corner's distance, p.y.
-    [[nodiscard]] T turn_of_sum(const glm::vec<2, T>& p, const glm::vec<2, T>& q) const noexcept {
-        const T p_sine = -near_.z * p.y, q_sine = -near_.z * q.y;
-        return turn_of(p.x * q.x - p_sine * q_sine, p.x * q_sine + p_sine * q.x);
+    template <std::floating_point S>
+    static S turn_of_sum(S z, const glm::vec<2, S>& p, const glm::vec<2, S>& q) noexcept {
+        const S p_sine = -z * p.y, q_sine = -z * q.y;
+        return turn_of(real::rounded(p.x * q.x - p_sine * q_sine), real::rounded(p.x * q_sine + p_sine * q.x));
     }
 
-    Frame<T> frame_;
-    glm::vec<3, T> near_;  // the corner, in the frame
-    glm::vec<2, T> far_;   // x and y of the opposite corner
-    T solid_angle_;
-    T b0_, b1_;  // cosines between the normals of the planes through the edges along u, and the rectangle's
-    T z_share_;  // sqrt(1 - b0^2)
-    T k_;        // a turn less the angles at the first edge along v, in turns
+    T unit_{1};  // near the longer edge: squares of tiny or huge edges would leave T's range
+    Frame<T> frame_{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    glm::vec<3, T> near_{0, 0, -1};  // a, in the frame
+    glm::vec<2, T> far_{0, 0};       // x1, y1
+    T solid_angle_{0};
+    T b0_{0}, b1_{0};  // cosines between the normals of the planes through the edges along u, and the rectangle's
+    T z_share_{-1};    // sqrt(1 - b0^2), negative
+    T k_{0};           // a turn less the angles at the first edge along v, in turns
+    bool has_digits_{false};
 };
 
 }  // namespace lumis

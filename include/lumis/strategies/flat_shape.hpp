@@ -1,0 +1,91 @@
+// A triangle or parallelogram relative to a reference point: a corner, and the two edges from it.
+#pragma once
+
+#include "lumis/core/arguments.hpp"
+#include "lumis/core/assert.hpp"
+#include "lumis/core/real.hpp"
+#include "lumis/strategies/shapes.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+namespace lumis {
+
+namespace detail {
+
+// What a shape is prepared in. A float shape that passes close by needs double: where the reference point is 1e-6 of an edge
+// away from the plane, a height formed of float products is wrong by a tenth. float coordinates differ exactly in double.
+template <std::floating_point T>
+using Wide = std::conditional_t<std::same_as<T, float>, double, T>;
+
+template <std::floating_point T>
+[[nodiscard]] T longest_component(const glm::vec<3, T>& v) noexcept {
+    return real::max(real::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
+}
+
+// The largest power of two that is not above x, but at least the smallest normal number.
+template <std::floating_point T>
+[[nodiscard]] T power_of_two(T x) noexcept {
+    using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+    constexpr auto exponent = std::bit_cast<Bits>(std::numeric_limits<T>::infinity());
+    return std::bit_cast<T>(std::bit_cast<Bits>(real::max(std::numeric_limits<T>::min(), x)) & exponent);
+}
+
+// Each difference as rounded: of two vectors nearly in line it is all that is left of their products.
+template <std::floating_point T>
+[[nodiscard, gnu::always_inline]] inline glm::vec<3, T> cross(const glm::vec<3, T>& a,
+                                                              const glm::vec<3, T>& b) noexcept {
+    return real::rounded(glm::cross(a, b));
+}
+
+}  // namespace detail
+
+// Vertices are taken relative to the reference point before anything else, and edges before that, so that a scene far from
+// its origin loses no more than its coordinates have lost already.
+template <class Shape>
+struct FlatShape {
+    using Scalar = typename Shape::Scalar;
+    using Wide = detail::Wide<Scalar>;
+    using Vector = glm::vec<3, Wide>;
+    static constexpr bool is_triangle = std::same_as<Shape, Triangle<Scalar>>;
+
+    // In a unit near the longest edge where T is double: squares of tiny or huge edges would leave its range. The unit is a
+    // power of two, which rounds nothing.
+    Vector corner, edge_u, edge_v;
+    Wide unit{1};
+
+    [[gnu::always_inline]] FlatShape(const Shape& shape,
+                                     const glm::vec<3, Scalar>& reference_point) noexcept requires is_triangle
+        : FlatShape{difference(shape.a, reference_point), difference(shape.b, shape.a), difference(shape.c, shape.a)} {
+        LUMIS_ASSERT(!detail::is_nan(shape) && !detail::is_nan(reference_point));
+    }
+
+    [[gnu::always_inline]] FlatShape(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept
+        requires(!is_triangle)
+        : FlatShape{difference(shape.corner, reference_point), Vector(shape.edge_u), Vector(shape.edge_v)} {
+        LUMIS_ASSERT(!detail::is_nan(shape) && !detail::is_nan(reference_point));
+    }
+
+  private:
+    [[gnu::always_inline]] FlatShape(const Vector& c, const Vector& u, const Vector& v) noexcept
+        : corner{c}, edge_u{u}, edge_v{v} {
+        if constexpr (std::same_as<Wide, Scalar>) {
+            unit = detail::power_of_two(real::max(detail::longest_component(u), detail::longest_component(v)));
+            corner = c * (1 / unit);
+            edge_u = u * (1 / unit);
+            edge_v = v * (1 / unit);
+        }
+    }
+
+    static Vector difference(const glm::vec<3, Scalar>& to, const glm::vec<3, Scalar>& from) noexcept {
+        return real::rounded(Vector(to) - Vector(from));
+    }
+};
+
+}  // namespace lumis
