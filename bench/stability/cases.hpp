@@ -56,6 +56,8 @@ Measured spherical_triangle(Effort effort);
 template <class T>
 Measured spherical_rectangle(Effort effort);
 template <class T>
+Measured polygon_edges_close_by(Effort effort);
+template <class T>
 Measured environment_shapes(Effort effort);
 template <class T>
 Measured environment_compensation(Effort effort);

@@ -78,16 +78,17 @@ lumis::Disk<T> disk(const glm::dvec3& center, const glm::dvec3& normal, double r
     return {Vector<T>{center}, Vector<T>{normal}, static_cast<T>(radius)};
 }
 
-// By solid angle: the density is one over the solid angle, and what is drawn lies inside of the shape.
+// By solid angle: the density is one over the solid angle, and what is drawn lies inside of the shape. beyond: how far
+// beyond its edges that may be for a better reason than a direction's rounding.
 template <class T, class Shape>
-void check_by_solid_angle(Measured& measured, const Shape& shape, const Vector<T>& p, int random) {
+void check_by_solid_angle(Measured& measured, const Shape& shape, const Vector<T>& p, int random, double beyond = 0) {
     const lumis::AreaLight<Shape, lumis::BySolidAngle> light{shape, p};
     const auto c = corners_of(shape, p);
     const Quad solid_angle = solid_angle_of(c[0], c[1], c[2]) + solid_angle_of(c[0], c[2], c[3]);
     measured.compare(light.solid_angle(), solid_angle);
     // A direction's rounding; beyond 5 sr, where a vertex may lie opposite to the far edge, that of its versine.
     const double ulp = double{std::numeric_limits<T>::epsilon()};
-    const Quad slack = solid_angle > 5 ? 8 * std::sqrt(ulp) : 8 * ulp;
+    const Quad slack = solid_angle > 5 ? 8 * std::sqrt(ulp) : std::max(8 * ulp, beyond);
     const QuadVector middle = c[0] + c[2] + (std::same_as<Shape, lumis::Triangle<T>> ? c[1] : QuadVector{0, 0, 0});
     for_each_uniform<T>(random, [&](const auto& u) {
         const auto sample = light.sample(u);
@@ -246,6 +247,45 @@ Measured spherical_rectangle(Effort effort) {
     return measured;
 }
 
+// A long edge that starts at a, in a plane at the given height, and a polygon of the given width at its side: as it is, and
+// turned so that no coordinate is 0.
+template <class T>
+Measured polygon_edges_close_by(Effort effort) {
+    Measured measured;
+    const Vector<T> p{0, 0, 0};
+    const int random = effort.quick ? 0 : 1;
+    // double has no wider type to form the cross products of vertices nearly opposite to each other.
+    constexpr double beyond = 1e-7;
+    const auto from = [&](const glm::dvec3& a, const glm::dvec3& along, const glm::dvec3& across) {
+        const glm::dvec3 b = a + along, c = a + 0.35 * along + across;
+        for (const auto& t : {triangle<T>(a, b, c), triangle<T>(b, c, a), triangle<T>(c, a, b), triangle<T>(a, c, b),
+                              triangle<T>(c, b, a), triangle<T>(b, a, c)}) {
+            check_by_solid_angle<T>(measured, t, p, random, beyond);
+        }
+        check_by_solid_angle<T>(measured, parallelogram<T>(a, along, across), p, random, beyond);
+        check_by_solid_angle<T>(measured, parallelogram<T>(a, across, along), p, random, beyond);
+        check_by_solid_angle<T>(measured, parallelogram<T>(a, along, across + 0.3 * along), p, random, beyond);
+        check_by_solid_angle<T>(measured, parallelogram<T>(a, 0.4 * along - across, 0.6 * along + across), p, random,
+                                beyond);
+    };
+    sweep(1e-6, 1, 6, [&](double height) {
+        for (const double width : {1.0, 0.1, 0.01, 0.001}) {
+            for (const double start : {-0.2, -1.0, 0.0, 0.1}) {
+                for (const double aside : {0.0, height, -height, 1e-3, -1e-3}) {
+                    from({start, aside, height}, {2, 0, 0}, {0, width, 0});
+                    const glm::dvec3 x{0.6, 0.64, -0.48}, y{-0.8, 0.48, -0.36}, z{0, 0.6, 0.8};
+                    from(start * x + aside * y + height * z, 2.0 * x, width * y);
+                }
+            }
+        }
+        // By area its estimates vary without bound.
+        const auto t = triangle<T>({-0.2, 0, height}, {1.8, 0, height}, {0.3, 0.02, height});
+        check_irradiance<T>(measured, lumis::AreaLight<lumis::Triangle<T>, lumis::BySolidAngle>{t, p},
+                            irradiance_of(t, p), effort.of(30'000));
+    });
+    return measured;
+}
+
 template Measured flat_slivers<float>(Effort);
 template Measured flat_slivers<double>(Effort);
 template Measured flat_scales<float>(Effort);
@@ -260,5 +300,7 @@ template Measured spherical_triangle<float>(Effort);
 template Measured spherical_triangle<double>(Effort);
 template Measured spherical_rectangle<float>(Effort);
 template Measured spherical_rectangle<double>(Effort);
+template Measured polygon_edges_close_by<float>(Effort);
+template Measured polygon_edges_close_by<double>(Effort);
 
 }  // namespace stability
