@@ -45,14 +45,15 @@ class AreaLight<Shape, ByArea> {
     static constexpr int dimensions = 2;
 
     [[gnu::always_inline]] AreaLight(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept
-        : view_{shape, reference_point}, pdf_area_{1 / view_.area()} {}
+        : view_{shape, reference_point}, pdf_area_{real::quotient_where(view_.area() > 0, Scalar(1), view_.area())} {}
 
     template <RealOf<Scalar> R = Scalar>
     [[nodiscard, gnu::always_inline]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         const SurfaceSample<R> point = view_.sample(u);
         const R squared = glm::dot(point.position, point.position);
         const auto valid = is_squared_length(squared);
-        const R distance = real::select(valid, real::sqrt(squared), 0), inverse = 1 / distance;
+        const R distance = real::select(valid, real::sqrt(squared), 0);
+        const R inverse = real::quotient_where(valid, R(Scalar(1)), distance);
         return {real::select(valid, point.position * inverse, Direction<R>{}),
                 density(distance, R(point.cos_times_distance * inverse)), distance};
     }

@@ -20,8 +20,8 @@ template <Real R>
 [[nodiscard, gnu::always_inline]] inline LightSample<Direction<R>, R> seen_at(const Direction<R>& w, scalar_of<R> pdf,
                                                                               R distance) noexcept {
     constexpr auto rounding = 64 * std::numeric_limits<R>::epsilon();
-    const auto seen =
-        real::abs(R(glm::dot(w, w) - 1)) <= rounding && distance >= 0 && distance <= std::numeric_limits<R>::max();
+    const auto seen = real::abs(real::rounded(R(glm::dot(w, w) - 1))) <= rounding && distance >= 0 &&
+                      distance <= std::numeric_limits<R>::max();
     return {real::select(seen, w, Direction<R>{}), real::select(seen, R(pdf), 0), real::select(seen, distance, 0)};
 }
 
@@ -43,7 +43,7 @@ class AreaLight<Sphere<T>, BySolidAngle> {
     static constexpr int dimensions = 2;
 
     [[gnu::always_inline]] AreaLight(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point) noexcept
-        : view_{sphere, reference_point}, pdf_{density_or_zero(1 / view_.solid_angle())} {}
+        : view_{sphere, reference_point}, pdf_{detail::uniform_density(view_.solid_angle())} {}
 
     // u.x = 0 is the centre of the cone.
     template <RealOf<T> R = T>
@@ -149,7 +149,7 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
         }
         const glm::vec<3, R> position = rectangle_.sample(u);
         const R distance = real::length(position);
-        return detail::seen_at(position * (1 / distance), pdf_, R(distance * unit_));
+        return detail::seen_at(position * real::divide(R(T(1)), distance), pdf_, R(distance * unit_));
     }
 
     template <RealOf<T> R = T>
@@ -215,7 +215,7 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
             return real::either(
                 u.x < share_,
                 [&] {
-                    return first_.sample(glm::vec<2, R>{u.x / share_, u.y});
+                    return first_.sample(glm::vec<2, R>{real::divide(u.x, share_), u.y});
                 },
                 [&] {
                     return second_.sample(glm::vec<2, R>{real::quotient_where(rest > 0, R(1 - u.x), rest), u.y});

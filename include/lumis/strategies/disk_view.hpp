@@ -19,11 +19,14 @@ template <std::floating_point T>
 class DiskView {
   public:
     DiskView(const Disk<T>& disk, const glm::vec<3, T>& reference_point) noexcept
-        : center_{disk.center - reference_point},
-          radius_{disk.radius > 0 && has_direction(disk.normal) ? disk.radius : T(0)},
-          frame_{has_direction(disk.normal) ? disk.normal / real::length(disk.normal) : Direction<T>{0, 0, 1}},
-          height_{glm::dot(center_, frame_.normal())} {
+        : center_{real::rounded(disk.center - reference_point)} {
         LUMIS_ASSERT(!detail::is_nan(disk) && !detail::is_nan(reference_point));
+        const T squared = glm::dot(disk.normal, disk.normal);
+        if (is_squared_length(squared)) {
+            frame_ = Frame<T>{real::divide(disk.normal, real::sqrt(squared))};
+            if (disk.radius > 0) radius_ = disk.radius;
+        }
+        height_ = glm::dot(center_, frame_.normal());
     }
 
     [[nodiscard]] T area() const noexcept { return std::numbers::pi_v<T> * radius_ * radius_; }
@@ -42,25 +45,27 @@ class DiskView {
     template <RealOf<T> R = T>
     [[nodiscard]] SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
         const R cos_light = glm::dot(w, Direction<R>(frame_.normal()));
-        const R inverse = 1 / cos_light, distance = height_ * inverse;
-        const R radius = radius_ + 4 * std::numeric_limits<T>::epsilon() * distance * real::abs(inverse);
-        const glm::vec<3, R> across = distance * w - glm::vec<3, R>(center_);
+        const R distance = real::quotient_where(real::abs(cos_light) > 0, R(height_), cos_light);
+        // Both sides times the cosine, which may be next to 0.
+        const R radius = radius_ * real::abs(cos_light) + 4 * std::numeric_limits<T>::epsilon() * distance;
+        const glm::vec<3, R> across = real::rounded(R(height_) * w - cos_light * glm::vec<3, R>(center_));
         return hit_if(distance > 0 && glm::dot(across, across) <= radius * radius, distance, cos_light);
     }
 
     [[nodiscard]] glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
-        const glm::vec<3, T> across = height_ / glm::dot(w, frame_.normal()) * w - center_;
-        const T x = glm::dot(across, frame_.tangent()) / radius_, y = glm::dot(across, frame_.bitangent()) / radius_;
+        const T cos_light = glm::dot(w, frame_.normal());
+        const T distance = real::quotient_where(std::abs(cos_light) > 0, height_, cos_light);
+        const glm::vec<3, T> across = real::rounded(distance * w - center_);
+        const T inverse = real::quotient_where(radius_ > 0, T(1), radius_);
+        const T x = glm::dot(across, frame_.tangent()) * inverse, y = glm::dot(across, frame_.bitangent()) * inverse;
         return {x * x + y * y, turn_of(x, y)};
     }
 
   private:
-    static bool has_direction(const glm::vec<3, T>& v) noexcept { return is_squared_length(glm::dot(v, v)); }
-
     glm::vec<3, T> center_;  // relative to the reference point
-    T radius_;
-    Frame<T> frame_;
-    T height_;  // of the plane over the reference point, along the normal; signed
+    T radius_{0};
+    Frame<T> frame_{Direction<T>{0, 0, 1}};
+    T height_{0};  // of the plane over the reference point, along the normal; signed
 };
 
 }  // namespace lumis

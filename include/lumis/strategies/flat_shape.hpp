@@ -77,9 +77,10 @@ struct FlatShape {
         : corner{c}, edge_u{u}, edge_v{v} {
         if constexpr (std::same_as<Wide, Scalar>) {
             unit = detail::power_of_two(real::max(detail::longest_component(u), detail::longest_component(v)));
-            corner = c * (1 / unit);
-            edge_u = u * (1 / unit);
-            edge_v = v * (1 / unit);
+            const Wide inverse = real::divide(Wide(1), unit);
+            corner = c * inverse;
+            edge_u = u * inverse;
+            edge_v = v * inverse;
         }
     }
 

@@ -66,9 +66,11 @@ class FlatView {
     // The u that sample maps to the point that w meets.
     [[nodiscard]] glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
         const T cos_light = glm::dot(w, normal_);
-        const T s = glm::dot(w, across_u_) / cos_light, t = glm::dot(w, across_v_) / cos_light;
+        const bool meets = std::abs(cos_light) > 0;
+        const T s = real::quotient_where(meets, glm::dot(w, across_u_), cos_light);
+        const T t = real::quotient_where(meets, glm::dot(w, across_v_), cos_light);
         if constexpr (is_triangle) {
-            return {(s + t) * (s + t), s + t > 0 ? t / (s + t) : T(0)};
+            return {(s + t) * (s + t), real::quotient_where(s + t > 0, t, s + t)};
         } else {
             return {s, t};
         }

@@ -18,7 +18,9 @@ class PointLight {
     static constexpr bool is_delta = true;
 
     PointLight(const glm::vec<3, T>& position, const glm::vec<3, T>& reference_point) noexcept
-        : distance_{real::length(position - reference_point)}, direction_{(position - reference_point) / distance_} {
+        : distance_{real::length(real::rounded(position - reference_point))},
+          direction_{
+              real::divide(real::rounded(position - reference_point), real::divisor_where(distance_ > 0, distance_))} {
         LUMIS_ASSERT(!detail::is_nan(position) && !detail::is_nan(reference_point));
     }
 

@@ -22,19 +22,22 @@ class SphereView {
     // A sphere whose radius is not positive, or a number out of range, subtends nothing; nor does one from its own surface,
     // to which the distance is 0.
     [[gnu::always_inline]] SphereView(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point) noexcept
-        : center_{sphere.center - reference_point}, radius_{sphere.radius}, axis_{Direction<T>{0, 0, 1}} {
+        : center_{real::rounded(sphere.center - reference_point)},
+          radius_{sphere.radius},
+          axis_{Direction<T>{0, 0, 1}} {
         LUMIS_ASSERT(!detail::is_nan(sphere) && !detail::is_nan(reference_point));
         // In double: just above the surface the rounding of a float distance is as large as the height.
         const glm::dvec3 center{center_};
         const double squared = glm::dot(center, center), r = radius_;
         distance_ = real::sqrt(static_cast<T>(squared));
-        tangent_squared_ = static_cast<T>(squared - r * r);
+        tangent_squared_ = static_cast<T>(real::rounded(squared - r * r));
         inside_ = tangent_squared_ < 0;
         const bool has_axis = is_squared_length(distance_ * distance_);
-        if (has_axis) axis_ = Frame<T>{center_ / distance_};
-        const T tangent = real::sqrt(tangent_squared_);
-        versine_ = inside_ ? T(2) : radius_ / distance_ * (radius_ / (distance_ + tangent));
-        chord_ = real::sqrt(2 * versine_) + 8 * std::numeric_limits<T>::epsilon();
+        if (has_axis) axis_ = Frame<T>{real::divide(center_, real::divisor_where(has_axis, distance_))};
+        const T tangent = real::sqrt_or_zero(tangent_squared_);
+        const T sine = real::quotient_where(distance_ > 0, radius_, distance_);
+        versine_ = inside_ ? T(2) : sine * real::quotient_where(distance_ > 0, radius_, distance_ + tangent);
+        chord_ = real::sqrt_or_zero(2 * versine_) + 8 * std::numeric_limits<T>::epsilon();
         const bool touches = tangent_squared_ == 0;
         if (!((has_axis || inside_) && !touches && radius_ > 0 && radius_ <= std::numeric_limits<T>::max())) {
             versine_ = radius_ = 0;
@@ -71,32 +74,32 @@ class SphereView {
 
     // The u of a direction towards the sphere.
     [[nodiscard]] glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
-        const glm::vec<3, T> chord = w - axis_.normal();
+        const glm::vec<3, T> chord = real::rounded(w - axis_.normal());
         const Direction<T> local = axis_.to_local(w);
-        return {glm::dot(chord, chord) / (2 * versine_), turn_of(local.x, local.y)};
+        return {real::quotient_where(versine_ > 0, glm::dot(chord, chord), 2 * versine_), turn_of(local.x, local.y)};
     }
 
     // Whether w points at the sphere. The chord between w and the axis keeps its digits where their cosine has none;
     // it gives way by the rounding of w, so that a direction drawn at the rim is found on the sphere.
     template <RealOf<T> R = T>
     [[nodiscard]] MaskOf<R> contains(const Direction<R>& w) const noexcept {
-        return inside_ || real::length(w - Direction<R>(axis_.normal())) <= chord_;
+        return inside_ || real::length(real::rounded(w - Direction<R>(axis_.normal()))) <= chord_;
     }
 
     template <RealOf<T> R = T>
     [[nodiscard]] SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
         const glm::vec<3, R> center{center_};
         const R along = glm::dot(center, w);
-        const R across = real::length(center - along * w);
+        const R across = real::length(real::rounded(center - along * w));
         return hit_if(inside_ || (along > 0 && contains(w)), distance_along(along, across),
-                      half_chord_at(across) / radius_);
+                      real::quotient_where(MaskOf<R>(R(radius_) > 0), half_chord_at(across), R(radius_)));
     }
 
   private:
     // Half the length of the chord that a line cuts out of the sphere when it passes its centre at a distance `across`.
     template <Real R>
     [[nodiscard]] R half_chord_at(R across) const noexcept {
-        return real::sqrt(real::max(R((radius_ - across) * (radius_ + across)), 0));
+        return real::sqrt_or_zero(R(real::rounded(radius_ - across) * (radius_ + across)));
     }
 
     // To the first point on the sphere ahead, for a ray whose closest approach to the centre is `along` ahead and
@@ -104,7 +107,7 @@ class SphereView {
     template <Real R>
     [[nodiscard]] R distance_along(R along, R across) const noexcept {
         const R far_root = along + half_chord_at(across);
-        return inside_ ? far_root : tangent_squared_ / far_root;
+        return inside_ ? far_root : real::quotient_where(far_root > 0, R(tangent_squared_), far_root);
     }
 
     glm::vec<3, T> center_;  // relative to the reference point

@@ -34,7 +34,7 @@ class SphericalRectangle {
                                               const Vector& edge_v) noexcept {
         const Wide width = real::length(edge_u), height = real::length(edge_v);
         if (!(width > 0 && height > 0)) return;
-        const Vector x = edge_u / width, y = edge_v / height, up = glm::cross(x, y);
+        const Vector x = real::divide(edge_u, width), y = real::divide(edge_v, height), up = glm::cross(x, y);
         const Wide above = glm::dot(corner, up), z = -std::abs(above);
         if (!(z < 0)) return;
         frame_ = {Direction<T>(x), Direction<T>(y), Direction<T>(above > 0 ? -up : up)};
@@ -43,9 +43,9 @@ class SphericalRectangle {
         near_ = Vector{x0, y0, z} * (1 / Wide{unit_});
         far_ = glm::vec<2, Wide>{x1, y1} * (1 / Wide{unit_});
         const Wide zz = z * z, xx0 = x0 * x0 + zz, xx1 = x1 * x1 + zz, yy0 = y0 * y0 + zz, yy1 = y1 * y1 + zz;
-        const Wide inverse = 1 / real::sqrt(yy0);
+        const Wide inverse = real::divide(Wide(1), real::sqrt(yy0));
         b0_ = static_cast<T>(-y0 * inverse);
-        b1_ = static_cast<T>(y1 / real::sqrt(yy1));
+        b1_ = static_cast<T>(real::divide(y1, real::sqrt(yy1)));
         z_share_ = static_cast<T>(z * inverse);
 
         // Distances of the corners. A turn less the angles at a and d; and the angles at b and c.
@@ -101,7 +101,7 @@ class SphericalRectangle {
         const R below = real::rounded(numerator - share) * real::rounded(numerator + share);
         const R x = real::clamp(ratio(R(near_.z * a.y), below), near_.x, far_.x);
         const R d = length(x, R(near_.z));
-        const R h0 = near_.y / length(d, R(near_.y)), h1 = far_.y / length(d, R(far_.y));
+        const R h0 = sine(R(near_.y), d), h1 = sine(R(far_.y), d);
         const R h = real::rounded(h0 + u.y * (h1 - h0));
         const R y = real::clamp(ratio(R(h * d), R(real::rounded(1 - h) * real::rounded(1 + h))), near_.y, far_.y);
         return frame_.to_world(glm::vec<3, R>{x, y, near_.z});
@@ -110,11 +110,14 @@ class SphericalRectangle {
     // position: relative to the reference point, on the rectangle or towards it.
     [[nodiscard]] glm::vec<2, T> invert(const glm::vec<3, T>& position) const noexcept {
         const glm::vec<3, T> local = frame_.to_local(position);
-        const T x = local.x * (near_.z / local.z), y = local.y * (near_.z / local.z);
+        const T to_plane = real::quotient_where(local.z < 0, near_.z, local.z), x = local.x * to_plane,
+                y = local.y * to_plane;
         const T d = length(x, near_.z);
-        const T h0 = near_.y / length(d, near_.y), h1 = far_.y / length(d, far_.y);
+        const T h0 = sine(near_.y, d), h1 = sine(far_.y, d);
         const T a = turn_of_sum<T>(near_.z, {near_.y * x, length(d, near_.y)}, {-x * far_.y, length(d, far_.y)});
-        return {(a - k_) * (2 * std::numbers::pi_v<T>) / solid_angle_, (y / length(d, y) - h0) / (h1 - h0)};
+        const bool drawn = solid_angle_ > 0 && h1 > h0;
+        return {real::quotient_where(drawn, (a - k_) * (2 * std::numbers::pi_v<T>), solid_angle_),
+                real::quotient_where(drawn, sine(y, d) - h0, real::rounded(h1 - h0))};
     }
 
   private:
@@ -123,16 +126,22 @@ class SphericalRectangle {
         return real::sqrt(R(x * x + y * y));
     }
 
+    // Of the elevation of the point (x, y) over that at y = 0 on the line at x, which is d away.
+    template <Real R>
+    static R sine(R y, R d) noexcept {
+        return real::divide(y, length(d, y));
+    }
+
     // x / sqrt(square), or next to infinity where rounding has left no square.
     template <Real R>
     static R ratio(R x, R square) noexcept {
-        return x / real::sqrt(real::max(square, std::numeric_limits<T>::min()));
+        return real::divide(x, real::sqrt(real::max(square, std::numeric_limits<T>::min())));
     }
 
     // p q + p.q of the lengths of p and q, their product, and the square of p x q: for p and q nearly opposite to each
     // other the sum has no digits.
     static Wide sum_of_products(Wide lengths, Wide dot, Wide cross_squared) noexcept {
-        return dot >= 0 ? lengths + dot : cross_squared / (lengths - dot);
+        return dot >= 0 ? lengths + dot : real::divide(cross_squared, real::rounded(lengths - dot));
     }
 
     // The sum of two angles at corners, in turns. The planes from the reference point through the edges that meet at (x, y)

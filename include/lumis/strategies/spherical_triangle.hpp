@@ -48,7 +48,8 @@ class SphericalTriangle {
         const Vector cross_ab = detail::cross(a, ab), cross_bc = detail::cross(b, ac - ab);
         const Wide volume = glm::dot(cross_ab, ac), aa = glm::dot(a, a), bb = glm::dot(b, b), cc = glm::dot(c, c);
         if (!(std::abs(volume) > 0 && in_range(aa) && in_range(bb) && in_range(cc))) return;
-        const Wide inverse_a = 1 / real::sqrt(aa), inverse_b = 1 / real::sqrt(bb), inverse_c = 1 / real::sqrt(cc);
+        const Wide inverse_a = inverse(real::sqrt(aa)), inverse_b = inverse(real::sqrt(bb)),
+                   inverse_c = inverse(real::sqrt(cc));
         const Wide inverse_ab = inverse_a * inverse_b, inverse_bc = inverse_b * inverse_c;
 
         // Unit vertices from here on.
@@ -70,21 +71,21 @@ class SphericalTriangle {
         solid_angle_ = static_cast<T>(2 * real::atan2(det, sum));
 
         const Wide sine_ab = real::sqrt(ab_side.squared_sine), sine_bc = real::sqrt(bc_side.squared_sine);
-        const Wide inverse_det = 1 / det, reach = real::sqrt(ab_side.one_minus_cos);
+        const Wide inverse_det = inverse(det), reach = real::sqrt(ab_side.one_minus_cos);
         const Vector unit_a = a * inverse_a;
         // At right angles to a once more: of vertices nearly opposite to each other the cross product is rounded.
-        const Vector across = (a_x_b - unit_a * glm::dot(unit_a, a_x_b)) * (1 / sine_ab);
+        const Vector across = (a_x_b - unit_a * glm::dot(unit_a, a_x_b)) * inverse(sine_ab);
         a_ = unit_a;
         to_b_ = glm::cross(across, unit_a);
         to_c_ = across * std::copysign(Wide(1), volume);
         g1_ = static_cast<T>(ab_side.one_plus_cos * sine_bc * inverse_det);
         g2_ = static_cast<T>(-dot_of_crosses * inverse_det);
         reach_ = static_cast<T>(reach);
-        two_over_reach_ = static_cast<T>(2 / reach);
+        two_over_reach_ = static_cast<T>(real::divide(Wide(2), reach));
         one_plus_cos_ = static_cast<T>(ab_side.one_plus_cos);
-        cot_half_bc_ = static_cast<T>(bc_side.one_plus_cos / sine_bc);
-        const Wide inverse = 1 / real::sqrt(det * det + sum * sum);
-        end_ = glm::vec<2, T>{static_cast<T>(sum * inverse), static_cast<T>(det * inverse)};
+        cot_half_bc_ = static_cast<T>(real::divide(bc_side.one_plus_cos, sine_bc));
+        const Wide inverse_length = inverse(real::sqrt(det * det + sum * sum));
+        end_ = glm::vec<2, T>{static_cast<T>(sum * inverse_length), static_cast<T>(det * inverse_length)};
     }
 
     [[nodiscard]] T solid_angle() const noexcept { return solid_angle_; }
@@ -121,16 +122,17 @@ class SphericalTriangle {
         const T middle = to_b + to_c * g2_;
         const glm::vec<2, T> half = middle > 0 ? glm::vec<2, T>{middle + length, to_c * one_minus_cos}
                                                : glm::vec<2, T>{to_c * one_plus_cos_ - 2 * to_b * g2_, length - middle};
-        const glm::vec<2, T> unit = half * (1 / real::sqrt(half.x * half.x + half.y * half.y));
+        const glm::vec<2, T> unit = half * inverse(real::sqrt(half.x * half.x + half.y * half.y));
         const T reach = arc_to_q(unit, glm::vec<2, T>{unit.x - unit.y * g2_, unit.y * g1_}).one_minus_cos;
-        return {real::max(2 * std::atan2(half.y, half.x) / solid_angle_, T(0)), glm::dot(aw, aw) / (2 * reach)};
+        return {real::max(real::divide(2 * std::atan2(half.y, half.x), solid_angle_), T(0)),
+                real::divide(glm::dot(aw, aw), 2 * reach)};
     }
 
   private:
     // 1 + cos and 1 - cos of a side: the larger one from the cosine, the other as sin^2 divided by it.
     struct Side {
         [[gnu::always_inline]] Side(Wide cosine, const Vector& cross) noexcept : squared_sine{glm::dot(cross, cross)} {
-            const Wide larger = 1 + std::abs(cosine), smaller = squared_sine / larger;
+            const Wide larger = 1 + std::abs(cosine), smaller = real::divide(squared_sine, larger);
             one_plus_cos = cosine > 0 ? larger : smaller;
             one_minus_cos = cosine > 0 ? smaller : larger;
         }
@@ -156,13 +158,19 @@ class SphericalTriangle {
                            : R(real::rounded(reach_ - sine * (half.y + half.x * g2_)));
         const glm::vec<2, R> p{to_b, xy.x * sine};
         const R pp = p.x * p.x + p.y * p.y;
-        const R inverse = 1 / real::max(R(xy.x * xy.x + xy.y * xy.y), std::numeric_limits<T>::min());
+        const R inverse =
+            SphericalTriangle::inverse(real::max(R(xy.x * xy.x + xy.y * xy.y), std::numeric_limits<T>::min()));
         // The smaller one as it is, the larger one from it: so they sum to 2 as well as T can tell.
         const R one_minus_cos = pp * inverse, one_plus_cos = one_plus_cos_ * inverse;
         const auto q_is_far = one_plus_cos < 1;
         const R far = 2 - one_plus_cos;
         return {p, real::select(q_is_far, far, one_minus_cos), real::select(q_is_far, one_plus_cos, 2 - one_minus_cos),
                 real::select(q_is_far, real::quotient_where(q_is_far && pp > 0, far, pp), inverse)};
+    }
+
+    template <Real R>
+    static R inverse(R x) noexcept {
+        return real::divide(R(scalar_of<R>(1)), x);
     }
 
     static bool in_range(Wide x) noexcept {
