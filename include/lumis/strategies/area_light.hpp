@@ -18,11 +18,17 @@
 
 namespace lumis {
 
-struct ByArea {};
-struct BySolidAngle {};
+struct ByArea {};        // every shape
+struct BySolidAngle {};  // Triangle, Parallelogram, Sphere
 
+// Shapes that a Sampling does not know. A disk is seen as an elliptic cone: a map even over that has no closed form.
 template <class Shape, class Sampling = ByArea>
-class AreaLight;
+class AreaLight {
+    static_assert(!std::same_as<Sampling, BySolidAngle>,
+                  "lumis::AreaLight draws Triangle, Parallelogram and Sphere by solid angle (include "
+                  "lumis/strategies/area_light_by_solid_angle.hpp), any other shape ByArea, a Disk for one");
+    static_assert(std::same_as<Sampling, BySolidAngle>, "lumis::AreaLight draws ByArea or BySolidAngle");
+};
 
 namespace detail {
 
@@ -76,8 +82,9 @@ class AreaLight<Shape, ByArea> {
         return view_.invert(w);
     }
 
-    // For hosts that already know where a ray hit this light: the distance, and the cosine between the ray and the
-    // surface normal there, of either sign.
+    // For hosts that already know where a ray hit this light: the distance to the point, and the cosine there, of either
+    // sign, between the ray and the normal of the shape itself. The cosine to an interpolated shading normal gives a density
+    // that nothing is drawn with, and MIS weights that do not sum to 1: estimates are then biased by some percent.
     [[nodiscard]] Scalar pdf_from_hit(Scalar distance, Scalar cos_light) const noexcept {
         return density(distance, cos_light);
     }

@@ -1,5 +1,6 @@
-// Lights of finite area by the directions in which they are seen, evenly: the density is 1 / solid angle over the light.
-// World space. A light that subtends nothing (no area, edge-on, reference point at a vertex) draws nothing.
+// Triangles, parallelograms and spheres by the directions in which they are seen, evenly: the density is 1 / solid angle over
+// the light. World space. A light that subtends nothing (no area, edge-on, reference point at a vertex) draws nothing.
+// pdf_from_hit takes what AreaLight<Shape, ByArea>::pdf_from_hit does and needs none of it: any hit has that density.
 #pragma once
 
 #include "lumis/strategies/area_light.hpp"
@@ -14,8 +15,8 @@ namespace lumis {
 
 namespace detail {
 
-// Nothing where rounding has put the direction beside the light, or left none: of a sliver not wider than its coordinates' last
-// place. On a sphere's surface the distance is 0.
+// What was drawn, or nothing where rounding has put the direction beside the light, or has left no unit vector: slivers no
+// wider than the last place of their coordinates are seen so. The distance is 0 on a sphere's surface.
 template <Real R>
 [[nodiscard, gnu::always_inline]] inline LightSample<Direction<R>, R> seen_at(const Direction<R>& w, scalar_of<R> pdf,
                                                                               R distance) noexcept {
@@ -25,7 +26,7 @@ template <Real R>
     return {real::select(seen, w, Direction<R>{}), real::select(seen, R(pdf), 0), real::select(seen, distance, 0)};
 }
 
-// Over a solid angle; 0 over none, and over one so small that its inverse is out of range.
+// The density that is even over a solid angle; 0 over none, and over one so small that its inverse is out of range.
 template <std::floating_point T>
 [[nodiscard]] T uniform_density(T solid_angle) noexcept {
     return density_or_zero(real::quotient_where(solid_angle > 0, T(1), solid_angle));
@@ -74,7 +75,7 @@ class AreaLight<Sphere<T>, BySolidAngle> {
     T pdf_;
 };
 
-// Arvo 1995, in a form that keeps its digits for tiny triangles, see spherical_triangle.hpp.
+// A triangle by Arvo 1995, in a form that keeps its digits, see spherical_triangle.hpp.
 template <std::floating_point T>
 class AreaLight<Triangle<T>, BySolidAngle> {
   public:
@@ -187,8 +188,8 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
         pdf_ = detail::uniform_density(solid_angle_);
     }
 
-    // Whether its edges are at right angles, at least up to the rounding of T. To a reference point close by, that rounding
-    // is large.
+    // Whether the edges are at right angles; up to the rounding of T, unless the reference point is so close by that such a
+    // shear shows.
     [[nodiscard]] static bool is_rectangle(const Shape& shape) noexcept {
         const auto dot = glm::dot(shape.edge_u, shape.edge_v);
         if (dot == 0) return true;
@@ -234,8 +235,8 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
             : first_{a, a + u, a + diagonal, u, diagonal}, second_{a, a + v, a + diagonal, v, diagonal} {
             const Vector across = detail::cross(a, diagonal);
             to_first_ = glm::dot(u, across) > 0 ? across : -across;
-            if (first_.solid_angle() > 0 && second_.solid_angle() > 0)
-                share_ = first_.solid_angle() / (first_.solid_angle() + second_.solid_angle());
+            const T first = first_.solid_angle(), second = second_.solid_angle();
+            share_ = real::quotient_where(first > 0 && second > 0, first, first + second);
         }
 
         SphericalTriangle<T> first_, second_;

@@ -53,10 +53,7 @@ class FlatView {
         return {Vector(corner_) + s * Vector(edge_u_) + t * Vector(edge_v_), height_};
     }
 
-    // True if the reference point lies in the plane, or the shape has no area.
-    [[nodiscard]] bool edge_on() const noexcept { return !(std::abs(height_) > 0); }
-
-    // To the plane.
+    // To the plane; 0 parallel to it.
     template <RealOf<T> R = T>
     [[nodiscard]] R distance_along(const Direction<R>& w) const noexcept {
         const R cos_light = glm::dot(w, Direction<R>(normal_));
