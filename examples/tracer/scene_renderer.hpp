@@ -3,13 +3,13 @@
 
 #include "camera.hpp"
 #include "direct_light.hpp"
+#include "random_stream.hpp"
 #include "renderer.hpp"
 #include "thread_clock.hpp"
 #include "type_name.hpp"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_reduce.h>
-#include <pcg_random.hpp>
 
 #include <functional>
 #include <tuple>
@@ -42,8 +42,7 @@ class SceneRenderer final : public Renderer {
             const auto add_pixels = [&](const oneapi::tbb::blocked_range<std::size_t>& pixels, double seconds) {
                 const ThreadClock clock;
                 for (std::size_t i = pixels.begin(); i < pixels.end(); ++i) {
-                    // A stream of its own for each pixel and pass.
-                    lumis::Uniforms uniforms{pcg32{seed * 0x9e3779b97f4a7c15u + pass, i}};
+                    lumis::Uniforms uniforms{random_stream(seed, i, pass)};
                     for (int k = 0; k < samples; ++k) film.sums[i] += radiance<Integrator>(seen_[i], uniforms);
                 }
                 return seconds + clock.seconds();
