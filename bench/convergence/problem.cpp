@@ -1,5 +1,7 @@
 #include "problem.hpp"
 
+#include "random_stream.hpp"
+
 #include <sstream>
 
 namespace convergence {
@@ -14,7 +16,8 @@ std::vector<Entry>& entries() {
 
 }  // namespace
 
-RandomNumbers::RandomNumbers(std::uint64_t seed, std::uint64_t stream) : source_{pcg64{seed, stream}} {}
+RandomNumbers::RandomNumbers(std::uint64_t seed, std::uint64_t stream)
+    : source_{tracer::random_stream<pcg64>(seed, stream)} {}
 
 void RandomNumbers::refill() {
     for (double& number : numbers_) number = source_.next<1>().x;

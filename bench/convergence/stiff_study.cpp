@@ -2,10 +2,9 @@
 
 #include "integrators.hpp"
 #include "near_mirror.hpp"
+#include "random_stream.hpp"
 #include "thread_clock.hpp"
 #include <lumis/lumis.hpp>
-
-#include <pcg_random.hpp>
 
 #include <cstdio>
 #include <numbers>
@@ -26,7 +25,7 @@ StiffCell measure(const Estimator& estimator, const F& f, double answer, int run
     constexpr int batch = 256;
     lumis::RunningMoments<> errors, squares;
     for (int run = 0; run <= runs; ++run) {
-        lumis::Uniforms<pcg64> uniforms{pcg64{static_cast<std::uint64_t>(run)}};
+        lumis::Uniforms uniforms{tracer::random_stream<pcg64>(static_cast<std::uint64_t>(run))};
         lumis::RunningMoments<float> estimates;
         const tracer::ThreadClock clock;
         do {
