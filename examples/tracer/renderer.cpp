@@ -13,14 +13,14 @@ constexpr std::array<SceneEntry, 3> all_scenes{{
      "Four coated plates, the farthest the smoothest, reflect five sphere lights of falling size and rising radiance. "
      "Sampling the lights fails where a smooth plate mirrors a large light, sampling the BSDF where a rough one "
      "reflects a small light.",
-     768, 512, make_veach},
+     768, 512, false, make_veach},
     {"sky", "Rising roughness under a sunset",
      "A mirror, four metals of roughness 0.01, 0.05, 0.15 and 0.4, and chalk, under a photographed sky.", 768, 384,
-     make_sky},
+     true, make_sky},
     {"cornell", "Cornell box",
      "One rectangular light hangs over diffuse walls, a diffuse block and a coated one: sampling the light is nearly "
      "all that this scene needs.",
-     512, 512, make_cornell},
+     512, 512, false, make_cornell},
 }};
 
 }  // namespace

@@ -53,6 +53,7 @@ struct SceneOptions {
 struct SceneEntry {
     std::string_view name, title, description;
     int width, height;  // unless asked otherwise
+    bool has_sky;       // shows SceneOptions::environment
     std::unique_ptr<Renderer> (*make)(const SceneOptions&);
 };
 

@@ -22,6 +22,7 @@ template <Scene S, class Integrators = AllIntegrators>
 class SceneRenderer final : public Renderer {
   public:
     SceneRenderer(S scene, const SceneOptions& options, const Camera& camera) : scene_{std::move(scene)} {
+        seen_.reserve(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height));
         for (int y = 0; y < options.height; ++y) {
             for (int x = 0; x < options.width; ++x) {
                 seen_.push_back(look(camera.position, camera.direction(x, y, options.width, options.height)));

@@ -1,12 +1,16 @@
-# The tracer's exit codes and messages: 2 for wrong input, 1 for files, 0 for what works.
+# The tracer's exit codes and messages: 2 for wrong input, 1 for files and memory, 0 for what works, 130 for Ctrl-C.
+file(REMOVE_RECURSE ${FOLDER})
+file(MAKE_DIRECTORY ${FOLDER})
+set(before)  # what runs the program
 function(expect code pattern)
-    execute_process(COMMAND ${PROGRAM} ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE err)
+    execute_process(COMMAND ${before} ${PROGRAM} ${ARGN} WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE err)
     if(NOT status EQUAL code OR NOT "${out}${err}" MATCHES "${pattern}")
         message(FATAL_ERROR "tracer ${ARGN}: exit code ${status}, expected ${code} and '${pattern}', got:\n${out}${err}")
     endif()
     if(code GREATER 0 AND NOT "${err}" MATCHES "${pattern}")
         message(FATAL_ERROR "tracer ${ARGN}: the message is not on stderr")
     endif()
+    set(seen "${out}${err}" PARENT_SCOPE)
 endfunction()
 
 set(small --spp 1 --width 16 --height 16)
@@ -22,8 +26,68 @@ expect(2 "--threads" --threads 0)
 expect(2 "--width" --width 0)
 expect(2 "\\.png" ${small} --output picture.jpg)
 expect(2 "--nonsense" --nonsense)
-expect(1 "none\\.hdr: No such file" --scene sky ${small} --env none.hdr)
-expect(1 "no/such/folder/a\\.png: No such file" ${small} --output no/such/folder/a.png)
+expect(2 "--spp" --spp 1.5)
+expect(2 "--seconds: nan" --seconds nan)
+expect(2 "--seconds: inf" --seconds inf)
+expect(2 "--seed: -1" --seed -1)
+expect(2 "--height" --height -4)
+expect(2 "--width" --width 16385)
+
+# What is wrong with a file is found before rendering, which would take a minute.
+set(long --scene sky --seconds 60)
+set(rendered "samples a pixel")
+function(expect_at_once)
+    expect(${ARGN})
+    if("${seen}" MATCHES "${rendered}")
+        message(FATAL_ERROR "tracer ${ARGN}: it rendered first")
+    endif()
+endfunction()
+expect_at_once(1 "none\\.hdr: No such file" ${long} --env none.hdr)
+expect_at_once(1 "cannot read [^\n]*: Is a directory" ${long} --env ${FOLDER})
+expect_at_once(2 "--env" ${long} --env=)
+expect_at_once(2 "--env: the scene veach has no sky" --scene veach --seconds 60 --env none.hdr)
+expect_at_once(2 "--env: the scene cornell has no sky" --scene cornell --seconds 60 --env none.hdr)
+expect_at_once(1 "no/such/folder/a\\.png: No such file" ${long} --output no/such/folder/a.png)
+expect_at_once(1 "a\\.png: No such file" ${long} --output ok.png no/such/folder/a.png)
+expect_at_once(2 "named twice" ${long} --output a.png ./a.png)
+file(MAKE_DIRECTORY ${FOLDER}/folder.png)
+expect_at_once(1 "folder\\.png: Is a directory" ${long} --output folder.png)
+if(EXISTS ${FOLDER}/ok.png)
+    message(FATAL_ERROR "an output was left behind though nothing was rendered")
+endif()
+
+# A disk that is full spoils one output, not the other.
+if(EXISTS /dev/full)
+    file(CREATE_LINK /dev/full ${FOLDER}/full.exr SYMBOLIC)
+    expect(1 "full\\.exr: No space left" ${small} --output full.exr beside.png)
+    if(NOT EXISTS ${FOLDER}/beside.png)
+        message(FATAL_ERROR "the output that could be written is missing")
+    endif()
+endif()
+
+# Progress knows the whole and what is left of it.
+expect(0 "5 of 5 samples a pixel, [0-9.]+ s, 0\\.0 s left" --spp 5 --width 16 --height 16)
+expect(0 "samples a pixel, 0\\.[0-9] of 0\\.2 s" --seconds 0.2 --width 16 --height 16)
+
+# Ctrl-C after two seconds of sixty: what there is is written.
+find_program(TIMEOUT timeout)
+if(TIMEOUT)
+    set(before ${TIMEOUT} --preserve-status --signal=INT 2)
+    expect(130 "tracer: interrupted" --seconds 60 --width 64 --height 64 --output interrupted.exr)
+    set(before)
+    if(NOT EXISTS ${FOLDER}/interrupted.exr)
+        message(FATAL_ERROR "an interrupted rendering was not written")
+    endif()
+endif()
+
+# More memory than the machine has, or than it gives. Sanitizers map more than any limit.
+if(NOT SANITIZED)
+    set(before sh -c "ulimit -v 4000000 && exec \"$@\"" sh)
+    expect(1 "an image of 16384 x 16384 needs 37.6 GB|not enough memory for an image of 16384 x 16384"
+        --width 16384 --height 16384)
+    expect(1 "memory for an image of 8000 x 8000|needs 9.0 GB" --width 8000 --height 8000)
+    set(before)
+endif()
 
 # The same seed gives the same file, whatever the threads; both formats at once.
 foreach(threads IN ITEMS 1 2)

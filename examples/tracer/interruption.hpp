@@ -1,0 +1,25 @@
+// Ctrl-C asks a program to come to an end; a second one ends it at once.
+#pragma once
+
+#include <csignal>
+
+namespace tracer {
+
+class Interruption {
+  public:
+    // From now on SIGINT (Ctrl-C) and SIGTERM are remembered, once.
+    static void watch() {
+        struct sigaction action {};
+        action.sa_handler = [](int signal) { received_ = signal; };
+        action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+        for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+    }
+
+    // The signal, or 0.
+    [[nodiscard]] static int received() noexcept { return received_; }
+
+  private:
+    static inline volatile std::sig_atomic_t received_ = 0;
+};
+
+}  // namespace tracer
