@@ -108,7 +108,8 @@ TEST_CASE("a PNG's own gamma and primaries are used unless it says sRGB") {
     CHECK(reason(png(1, 8, Kind::Grey, "\1", gamma(0))) == "its gamma is 0");
 
     std::string rec2020;
-    for (const std::uint32_t n : {31270, 32900, 70800, 29200, 17000, 79700, 13100, 4600}) rec2020 += big_endian(n);
+    for (const std::uint32_t n : {31270u, 32900u, 70800u, 29200u, 17000u, 79700u, 13100u, 4600u})
+        rec2020 += big_endian(n);
     const Image red = read(png(1, 8, Kind::Rgb, "\xff\0\0"s, chunk("cHRM", rec2020)));
     CHECK(std::abs(red.pixels[0].r - 1.6605f) <= 1e-3f);  // ITU-R BT.2087
     CHECK(std::abs(red.pixels[0].g + 0.1246f) <= 1e-3f);
