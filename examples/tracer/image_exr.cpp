@@ -45,6 +45,34 @@ class Stream final : public Imf::IStream {
     std::uint64_t at_ = 0;
 };
 
+// The library allocates what an attribute of a header claims to hold and only then looks whether it is there.
+void require_attributes(Bytes file) {
+    const auto take = [&](std::size_t size) {
+        require(size <= file.size(), "it ends too early");
+        const Bytes taken = file.first(size);
+        file = file.subspan(size);
+        return taken;
+    };
+    const auto take_number = [&] {
+        std::uint32_t value = 0;
+        std::memcpy(&value, take(sizeof(value)).data(), sizeof(value));  // little endian, as the machine
+        return value;
+    };
+    const auto take_text = [&] {  // up to a zero byte
+        const auto length = static_cast<std::size_t>(std::ranges::find(file, std::byte{0}) - file.begin());
+        return take(length + 1).first(length);
+    };
+    (void)take_number();  // the magic number
+    const bool has_parts = (take_number() & 0x1000) != 0;
+    do {
+        while (!take_text().empty()) {  // name, type, size, value
+            (void)take_text();
+            const std::uint32_t size = take_number();
+            (void)take(size);
+        }
+    } while (has_parts && !file.empty() && file.front() != std::byte{0});
+}
+
 enum class Model { Rgb, Grey, LuminanceChroma };
 
 struct Colors {
@@ -193,6 +221,7 @@ std::string remark(const Imf::MultiPartInputFile& file, const Colors& colors) {
 }  // namespace
 
 Image read_exr(Bytes bytes, std::uint64_t limit) {
+    require_attributes(bytes);
     Stream stream{bytes};
     // One thread; and a table of chunks that is missing is not made up for by reading the whole file.
     Imf::MultiPartInputFile file{stream, 0, false};
