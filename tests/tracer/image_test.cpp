@@ -1,28 +1,15 @@
 #include "catch.hpp"
+#include "folder.hpp"
 #include "image_files.hpp"
 
 #include <filesystem>
 #include <fstream>
-#include <random>
 #include <string>
 
 namespace {
 
 using namespace tracer;
 using image_files::message_of;
-namespace fs = std::filesystem;
-
-// A folder of its own that goes away with the test.
-struct Folder {
-    fs::path path;
-    Folder() {
-        do {
-            path = fs::temp_directory_path() / ("lumis_image_test_" + std::to_string(std::random_device{}()));
-        } while (!fs::create_directory(path));  // another test's
-    }
-    ~Folder() { fs::remove_all(path); }
-    [[nodiscard]] std::string file(const char* name) const { return (path / name).string(); }
-};
 
 }  // namespace
 
