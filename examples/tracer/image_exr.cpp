@@ -1,6 +1,7 @@
 // OpenEXR files, by the OpenEXR library: scan lines or tiles, any compression, half, float or integer channels R, G and B,
 // or Y (grey), or Y with RY and BY; of several parts, the first that has colour. What is refused says why: deep data, cube
-// maps, no colour. The picture is the display window: black where the file has no data, without the data around it.
+// maps, no colour. The picture is the display window: black where the file has no data, without the data around it. Which
+// direction is the middle of a latitude-longitude map is not read from the file: see environment.hpp.
 #include "image_formats.hpp"
 #include "primaries.hpp"
 
@@ -16,10 +17,13 @@
 #include <ImfStandardAttributes.h>
 #include <ImfStdIO.h>
 #include <ImfTileDescription.h>
+#include <openexr.h>
 
 #include <algorithm>
 #include <cstring>
+#include <initializer_list>
 #include <optional>
+#include <set>
 
 namespace tracer {
 
@@ -45,32 +49,36 @@ class Stream final : public Imf::IStream {
     std::uint64_t at_ = 0;
 };
 
-// The library allocates what an attribute of a header claims to hold and only then looks whether it is there.
-void require_attributes(Bytes file) {
-    const auto take = [&](std::size_t size) {
-        require(size <= file.size(), "it ends too early");
-        const Bytes taken = file.first(size);
-        file = file.subspan(size);
-        return taken;
+// The library's C++ classes allocate what an attribute claims to hold and only then look whether it is there. Its C
+// interface looks first; it is asked to read the headers alone.
+void require_sound_headers(Bytes bytes) {
+    struct File {
+        Bytes bytes;
+        std::string reason;
     };
-    const auto take_number = [&] {
-        std::uint32_t value = 0;
-        std::memcpy(&value, take(sizeof(value)).data(), sizeof(value));  // little endian, as the machine
-        return value;
+    File file{bytes, {}};
+    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    setup.user_data = &file;
+    setup.size_fn = [](exr_const_context_t, void* self) {
+        return static_cast<std::int64_t>(static_cast<const File*>(self)->bytes.size());
     };
-    const auto take_text = [&] {  // up to a zero byte
-        const auto length = static_cast<std::size_t>(std::ranges::find(file, std::byte{0}) - file.begin());
-        return take(length + 1).first(length);
+    setup.read_fn = [](exr_const_context_t, void* self, void* to, std::uint64_t size, std::uint64_t position,
+                       exr_stream_error_func_ptr_t) {
+        const Bytes& all = static_cast<const File*>(self)->bytes;
+        const Bytes rest = all.subspan(std::min<std::uint64_t>(position, all.size()));
+        const std::size_t got = std::min<std::uint64_t>(size, rest.size());
+        if (got > 0) std::memcpy(to, rest.data(), got);
+        return static_cast<std::int64_t>(got);
     };
-    (void)take_number();  // the magic number
-    const bool has_parts = (take_number() & 0x1000) != 0;
-    do {
-        while (!take_text().empty()) {  // name, type, size, value
-            (void)take_text();
-            const std::uint32_t size = take_number();
-            (void)take(size);
-        }
-    } while (has_parts && !file.empty() && file.front() != std::byte{0});
+    setup.error_handler_fn = [](exr_const_context_t context, exr_result_t, const char* reason) {
+        void* self = nullptr;
+        if (exr_get_user_data(context, &self) == EXR_ERR_SUCCESS) static_cast<File*>(self)->reason = reason;
+    };
+    exr_context_t context = nullptr;
+    const exr_result_t result = exr_start_read(&context, "file", &setup);
+    exr_finish(&context);
+    if (result == EXR_ERR_SUCCESS) return;
+    throw std::runtime_error(file.reason.empty() ? exr_get_default_error_message(result) : file.reason);
 }
 
 enum class Model { Rgb, Grey, LuminanceChroma };
@@ -221,7 +229,7 @@ std::string remark(const Imf::MultiPartInputFile& file, const Colors& colors) {
 }  // namespace
 
 Image read_exr(Bytes bytes, std::uint64_t limit) {
-    require_attributes(bytes);
+    require_sound_headers(bytes);
     Stream stream{bytes};
     // One thread; and a table of chunks that is missing is not made up for by reading the whole file.
     Imf::MultiPartInputFile file{stream, 0, false};

@@ -12,7 +12,7 @@
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <new>
@@ -51,6 +51,8 @@ Colors read_chunks(Bytes bytes) {
         const std::size_t length = number_at(bytes);
         require(length <= bytes.size() - around, "it ends too early");
         name = {reinterpret_cast<const char*>(bytes.data()) + 4, 4};
+        const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
+        require(std::ranges::all_of(name, is_letter), "the name of a chunk is not made of letters");
         const Bytes data = bytes.subspan(8, length);
         const auto number = [&](std::size_t i) { return static_cast<float>(number_at(data.subspan(4 * i))) / 100'000; };
         if (name == "sRGB") colors.srgb = true;

@@ -4,7 +4,7 @@
 
 #include <ImfChromaticities.h>
 
-#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace tracer {

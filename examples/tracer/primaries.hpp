@@ -4,8 +4,6 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
-#include <vector>
-
 namespace tracer {
 
 struct Image;

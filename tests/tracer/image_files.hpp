@@ -3,6 +3,8 @@
 
 #include "image.hpp"
 
+#include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>

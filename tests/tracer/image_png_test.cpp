@@ -125,6 +125,10 @@ TEST_CASE("a PNG file that ends early or claims too much is refused") {
     CHECK(reason(png(5, 8, Kind::Grey, "1234")) != "");
     CHECK(reason(png(100'000, 8, Kind::Grey, "1234")) == "an image of 100000 x 1 is too large");
 
+    CHECK(reason(png(4, 8, Kind::Grey, "1234", chunk("\0\0\0\0"s, ""))) ==
+          "the name of a chunk is not made of letters");
+    CHECK(reason(png(4, 8, Kind::Grey, "1234", chunk("ABCD", ""))) == "ABCD PNG chunk not known");
+
     std::string large = whole;
     large.replace(16, 8, big_endian(12'000) + big_endian(11'000));
     CHECK(reason(large) == "an image of 12000 x 11000 is more than it can hold: it ends too early");
