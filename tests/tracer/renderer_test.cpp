@@ -47,12 +47,19 @@ TEST_CASE("the error of an image falls as its passes say") {
     constexpr int size = 24, seeds = 64, passes = 64;
     const auto renderer = find_scene("cornell")->make({size, size, {}});
     std::vector<lumis::RunningMoments<>> of_one(size * size), of_all(size * size);
+    lumis::RunningMoments<> of_image;  // the sum of all pixels after one pass
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         Film sum{size, size};
         for (std::uint64_t pass = 0; pass < passes; ++pass) {
             const std::vector<glm::dvec3> before = sum.sums;
             renderer->add_pass(sum, "light", 1, seed, pass);
-            for (std::size_t i = 0; i < of_one.size(); ++i) of_one[i].add(sum.sums[i].g - before[i].g);
+            double image = 0;
+            for (std::size_t i = 0; i < of_one.size(); ++i) {
+                const double value = sum.sums[i].g - before[i].g;
+                of_one[i].add(value);
+                image += value;
+            }
+            of_image.add(image);
         }
         for (std::size_t i = 0; i < of_all.size(); ++i) of_all[i].add(sum.sums[i].g / passes);
     }
@@ -63,6 +70,10 @@ TEST_CASE("the error of an image falls as its passes say") {
     }
     CHECK(ratios.count() >= 500);
     CHECK(std::abs(ratios.mean() - 1) <= 0.03);
+    // Pixels do not share samples: the variance of their sum is the sum of their variances, here within 2.2 %.
+    double variances = 0;
+    for (const auto& pixel : of_one) variances += pixel.variance();
+    CHECK(std::abs(of_image.variance() / variances - 1) <= 0.1);
 }
 
 TEST_CASE("estimators contain what their scene needs and nothing else") {
