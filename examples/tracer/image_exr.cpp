@@ -58,6 +58,7 @@ void require_sound_headers(Bytes bytes) {
     };
     File file{bytes, {}};
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    setup.flags |= EXR_CONTEXT_FLAG_STRICT_HEADER;  // what it would repair, the C++ classes would not
     setup.user_data = &file;
     setup.size_fn = [](exr_const_context_t, void* self) {
         return static_cast<std::int64_t>(static_cast<const File*>(self)->bytes.size());
@@ -77,7 +78,7 @@ void require_sound_headers(Bytes bytes) {
     exr_context_t context = nullptr;
     const exr_result_t result = exr_start_read(&context, "file", &setup);
     exr_finish(&context);
-    if (result == EXR_ERR_SUCCESS && file.reason.empty()) return;  // some errors it reports and goes on
+    if (result == EXR_ERR_SUCCESS && file.reason.empty()) return;
     throw std::runtime_error(file.reason.empty() ? exr_get_default_error_message(result) : file.reason);
 }
 

@@ -6,6 +6,7 @@
 #include <ImfChromaticitiesAttribute.h>
 #include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,6 +2,8 @@
 #include "catch.hpp"
 #include "image_files.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <string>
 #include <string_view>
 #include <utility>
