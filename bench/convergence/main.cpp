@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <iostream>
 #include <numeric>
 #include <optional>
@@ -55,10 +56,19 @@ void list() {
     std::cout << stiff_name << ": Near-mirror surfaces under lights of all sizes\n";
 }
 
+// Where reference images are kept, those under another environment map apart.
+std::filesystem::path references(const Settings& settings) {
+    const std::filesystem::path folder = settings.output.parent_path() / "references";
+    if (settings.environment.empty()) return folder;
+    const std::filesystem::path map = std::filesystem::canonical(settings.environment);
+    const auto changed = std::filesystem::last_write_time(map).time_since_epoch().count();
+    return folder / std::to_string(std::hash<std::string>{}(map.string() + std::to_string(changed)));
+}
+
 void run(const Settings& settings) {
     std::filesystem::create_directories(settings.output);
     const RenderSettings render{settings.width,       settings.seconds, settings.reference_samples,
-                                settings.environment, settings.output,  settings.output.parent_path() / "references"};
+                                settings.environment, settings.output,  references(settings)};
     const auto asked_for = [&](const std::string& name) {
         return settings.problems.empty() || std::ranges::count(settings.problems, name) > 0;
     };

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
 #include <string_view>
 
 namespace convergence {
@@ -41,6 +44,21 @@ std::int64_t affordable_count(const Competitor& competitor, double seconds) {
     }
 }
 
+// How many of the run's estimates are not finite. The timed loop keeps sums alone; where one of them is spoilt, the run is
+// made once more, estimate by estimate.
+std::int64_t count_not_finite(const Competitor& competitor, std::span<const double> sums, std::int64_t count,
+                              RandomNumbers uniforms) {
+    const auto is_finite = [](double value) { return std::isfinite(value); };
+    if (std::ranges::all_of(sums, is_finite)) return 0;
+    std::vector<double> estimates(sums.size());
+    std::int64_t found = 0;
+    for (std::int64_t i = 0; i < count; ++i) {
+        competitor.run(estimates, 1, uniforms);
+        found += std::ranges::count_if(estimates, std::not_fn(is_finite));
+    }
+    return found;
+}
+
 // The errors of one seed's run, and of the shorter runs that it consists of.
 std::vector<Measurement> measurements(std::vector<double> sums, std::int64_t count, const Timed& time, double answer) {
     std::vector<Measurement> result;
@@ -53,7 +71,7 @@ std::vector<Measurement> measurements(std::vector<double> sums, std::int64_t cou
             sums.resize(sums.size() / ratio_of_lengths);
             count *= ratio_of_lengths;
         }
-        lumis::RunningMoments<> squares;
+        Moments squares;
         for (const double sum : sums) {
             const double error = sum / static_cast<double>(count) - answer;
             squares.add(error * error);
@@ -65,10 +83,20 @@ std::vector<Measurement> measurements(std::vector<double> sums, std::int64_t cou
     return result;
 }
 
+// What the figures are relative to, and compared by.
+void check(const std::string& name, const Problem& problem) {
+    const Answer& answer = problem.answer;
+    if (!std::isfinite(answer.value) || answer.value == 0 || !(answer.error >= 0 && std::isfinite(answer.error))) {
+        throw std::runtime_error("problem " + name + ": errors are relative to an answer that is finite and not 0");
+    }
+    if (problem.competitors.empty()) throw std::runtime_error("problem " + name + ": there is no technique");
+}
+
 }  // namespace
 
 Study problem_study(const std::string& name, const Problem& problem, const std::vector<std::uint64_t>& seeds,
                     double seconds, const Progress& progress) {
+    check(name, problem);
     Study study;
     study.name = name;
     study.group = problem.group;
@@ -87,6 +115,7 @@ Study problem_study(const std::string& name, const Problem& problem, const std::
     progress(name);
     std::vector<std::int64_t> counts;
     std::vector<std::vector<double>> means(problem.competitors.size());
+    std::vector<std::int64_t> not_finite(problem.competitors.size());
     for (const Competitor& competitor : problem.competitors) {
         counts.push_back(affordable_count(competitor, seconds));
         Series series;
@@ -110,10 +139,14 @@ Study problem_study(const std::string& name, const Problem& problem, const std::
             const Timed time = run(problem.competitors[i], sums, counts[i], RandomNumbers{seed, i});
             study.series[i].runs.push_back(measurements(sums, counts[i], time, answer.value));
             for (const double sum : sums) means[i].push_back(sum / static_cast<double>(counts[i]));
+            not_finite[i] += count_not_finite(problem.competitors[i], sums, counts[i], RandomNumbers{seed, i});
         }
     }
     for (std::size_t i = 0; i < study.series.size(); ++i) {
-        study.series[i].pooled = pool(means[i], answer.value, answer.error);
+        Pooled& pooled = study.series[i].pooled;
+        pooled = pool(means[i], answer.value, answer.error);
+        pooled.not_finite = not_finite[i];
+        pooled.evaluated = counts[i] * static_cast<std::int64_t>(means[i].size());
     }
     return study;
 }

@@ -3,14 +3,25 @@
 #include "agreement.hpp"
 #include <lumis/statistics/error_metrics.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
 #include <stdexcept>
 
 namespace convergence {
 
-namespace {
-
 using tracer::Image;
+
+bool is_finite(const glm::vec3& pixel) {
+    return std::isfinite(pixel.r) && std::isfinite(pixel.g) && std::isfinite(pixel.b);
+}
+
+std::int64_t count_not_finite(const Image& image) {
+    return std::ranges::count_if(image.pixels, std::not_fn(is_finite));
+}
+
+namespace {
 
 Image render(const tracer::Renderer& renderer, int width, int height, int samples, const char* integrator,
              std::uint64_t seed, const std::string& name, const Progress& progress) {
@@ -29,9 +40,18 @@ bool newer_than_program(const std::filesystem::path& file) {
 }
 
 double mean(const Image& image) {
-    lumis::RunningMoments<float> moments;
+    Moments moments;
     for (const float value : values(image)) moments.add(value);
     return moments.mean();
+}
+
+// Errors are relative to a reference, which has to be finite everywhere and bright somewhere.
+void check(const Image& image, const std::string& name, const std::string& integrator) {
+    const std::string what = "the reference of " + name + " by " + integrator;
+    if (const std::int64_t pixels = count_not_finite(image); pixels > 0) {
+        throw std::runtime_error(what + " has " + std::to_string(pixels) + " pixels that are not finite");
+    }
+    if (!(mean(image) > 0)) throw std::runtime_error(what + " is black");
 }
 
 }  // namespace
@@ -55,6 +75,7 @@ ReferenceImage reference_image(const tracer::Renderer& renderer, int width, int 
                                 render(renderer, width, height, samples, integrator, seed, name, progress));
         }
         images[i] = tracer::read_image(file.string());
+        check(images[i], name, integrator);
     }
     auto& [power, balance] = images;
     const Agreement agreed = agreement(power, balance);

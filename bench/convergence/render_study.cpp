@@ -7,8 +7,9 @@
 #include "renderer.hpp"
 #include <lumis/statistics/error_metrics.hpp>
 
+#include <algorithm>
 #include <chrono>
-#include <limits>
+#include <cmath>
 
 namespace convergence {
 
@@ -64,9 +65,13 @@ int count_fireflies(const Image& image, const Image& reference) {
     return count;
 }
 
-// For the eye and for further computation.
-std::string write(const std::filesystem::path& folder, const std::string& stem, const Image& image) {
-    for (const char* ending : {".exr", ".png"}) tracer::write_image((folder / (stem + ending)).string(), image);
+// For further computation, and for the eye, to which a pixel that is not finite is magenta.
+std::string write(const std::filesystem::path& folder, const std::string& stem, Image image) {
+    tracer::write_image((folder / (stem + ".exr")).string(), image);
+    for (glm::vec3& pixel : image.pixels) {
+        if (!is_finite(pixel)) pixel = {1, 0, 1};
+    }
+    tracer::write_image((folder / (stem + ".png")).string(), image);
     return stem + ".png";
 }
 
@@ -93,32 +98,6 @@ Recipe recipe(const std::string& integrator) {
     if (integrator == "bsdf" || integrator == "light") return {"alone"};
     if (integrator == "one-sample") return {"one-sample", "balance"};
     return {"multi-sample", integrator};
-}
-
-// Whether the mean image is off the reference, and what rules its error: from each pixel's relative deviation. It is taken
-// from either half of the reference, relative to the other: divided by its own noise, what is too dark would count for
-// more than what is too bright, and the reference would seem to be biased. Pixels are independent, and so their sum has the
-// root of the sum of their squares for its error (both images' noise is in it).
-Pooled pool(const Film& film, const ReferenceImage& reference) {
-    const Image image = film.image();
-    const auto estimate = values(image), power = values(reference.power), balance = values(reference.balance);
-    const auto deviation_from = [&](double value, double truth, double scale) {
-        return (value - truth) / std::max(scale, reference.floor);
-    };
-    double sum = 0, squares = 0;
-    std::vector<double> squared;
-    for (std::size_t i = 0; i < estimate.size(); i += 3) {
-        double deviation = 0;
-        for (std::size_t c = i; c < i + 3; ++c) {
-            deviation += 0.5 * (deviation_from(estimate[c], power[c], balance[c]) +
-                                deviation_from(estimate[c], balance[c], power[c]));
-        }
-        sum += deviation;
-        squares += deviation * deviation;
-        squared.push_back(deviation * deviation);
-    }
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    return {unknown, unknown, squares > 0 ? sum / std::sqrt(squares) : 0, tail_share(std::move(squared))};
 }
 
 }  // namespace
@@ -160,6 +139,7 @@ Study render_study(const std::string& scene_name, const std::vector<std::uint64_
     }
     // All integrators take turns, so that a drift of the machine's speed hits all alike.
     std::vector<Film> sums(study.series.size(), Film{study.width, study.height});
+    std::vector<std::int64_t> not_finite(study.series.size());
     for (const std::uint64_t seed : seeds) {
         for (std::size_t i = 0; i < study.series.size(); ++i) {
             Series& series = study.series[i];
@@ -172,15 +152,21 @@ Study render_study(const std::string& scene_name, const std::vector<std::uint64_
             }
             series.runs.push_back(std::move(measurements));
             add(sums[i], run.film());
-            if (series.picture) continue;
             const Image image = run.image();
+            not_finite[i] += count_not_finite(image);
+            if (series.picture) continue;
             const std::string stem = study.name + "_" + series.name;
             series.picture = Picture{
                 write(settings.output, stem, image), write_error(settings.output, stem, image, reference),
                 static_cast<int>(series.samples.back()), run.cpu_seconds(), count_fireflies(image, reference.image)};
         }
     }
-    for (std::size_t i = 0; i < sums.size(); ++i) study.series[i].pooled = pool(sums[i], reference);
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        Pooled& pooled = study.series[i].pooled;
+        pooled = pool(sums[i].image(), reference);
+        pooled.not_finite = not_finite[i];
+        pooled.evaluated = std::int64_t{study.width} * study.height * static_cast<std::int64_t>(seeds.size());
+    }
     study.left_out = left_out(study.name, *renderer, options, reference, seeds, settings.seconds / 4, progress);
     return study;
 }

@@ -1,10 +1,13 @@
 #include "results.hpp"
 
 #include "error_image.hpp"
+#include "revision.hpp"
 
 #include <nlohmann/json.hpp>
 #include <sys/utsname.h>
 
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <fstream>
@@ -19,6 +22,18 @@ using nlohmann::json;
 // In columns and in keys, a figure and its standard error stand side by side.
 json number(double value) {
     return std::isfinite(value) ? json(value) : json(nullptr);
+}
+
+// As the terminal and the CSV file show it: a dash, or nothing, where there is no number.
+std::string text(const char* format, double value, const char* none) {
+    std::array<char, 32> result{};
+    if (!std::isfinite(value)) return none;
+    std::snprintf(result.data(), result.size(), format, value);
+    return result.data();
+}
+
+std::string with_error(const char* format, double value, double error) {
+    return text(format, value, "-") + (std::isfinite(value) ? " +- " + text("%.2g", error, "-") : "");
 }
 
 json text_or_null(const std::string& text) {
@@ -97,7 +112,8 @@ json point_json(const Series& series, std::size_t point) {
 }
 
 json series_json(const Series& series, const Study& study) {
-    const Estimate exponent = slope(series), efficiency = relative_efficiency(series, baseline(study));
+    const Estimate exponent = slope(series), per_second = efficiency(series),
+                   relative = relative_efficiency(series, baseline(study));
     json result{{"name", series.name},
                 {"model", series.recipe.model},
                 {"heuristic", text_or_null(series.recipe.heuristic)},
@@ -106,6 +122,8 @@ json series_json(const Series& series, const Study& study) {
                 {"headline", series.headline},
                 {"unbiased", series.unbiased},
                 {"verdict", name(verdict(series))},
+                {"not_finite", series.pooled.not_finite},
+                {"evaluated", series.pooled.evaluated},
                 {"mean", number(series.pooled.mean)},
                 {"mean_standard_error", number(series.pooled.standard_error)},
                 {"bias_z", number(series.pooled.bias_z)},
@@ -114,8 +132,9 @@ json series_json(const Series& series, const Study& study) {
                 {"to_1_percent", effort_json(effort_to(series, 0.01))},
                 {"slope", number(exponent.value)},
                 {"slope_standard_error", number(exponent.standard_error)},
-                {"efficiency_relative_to_power", number(efficiency.value)},
-                {"efficiency_standard_error", number(efficiency.standard_error)}};
+                {"efficiency", number(per_second.value)},
+                {"efficiency_relative_to_power", number(relative.value)},
+                {"efficiency_standard_error", number(relative.standard_error)}};
     for (std::size_t i = 0; i < series.samples.size(); ++i) result["points"].push_back(point_json(series, i));
     if (series.picture) {
         result["image"] = series.picture->file;
@@ -188,17 +207,20 @@ json stiff_json(const StiffStudy& study) {
                 {"seconds", study.seconds},
                 {"runs", study.runs}};
     for (std::size_t i = 0; i < study.integrators.size(); ++i) {
-        json errors, z;
+        json errors, z, not_finite;
         for (const auto& row : study.cells[i]) {
-            json error_row, z_row;
+            json error_row, z_row, not_finite_row;
             for (const StiffCell& cell : row) {
                 error_row.push_back(number(cell.relative_error));
                 z_row.push_back(number(cell.bias_z));
+                not_finite_row.push_back(cell.not_finite);
             }
             errors.push_back(error_row);
             z.push_back(z_row);
+            not_finite.push_back(not_finite_row);
         }
-        result["integrators"].push_back({{"name", study.integrators[i]}, {"relative_error", errors}, {"bias_z", z}});
+        result["integrators"].push_back(
+            {{"name", study.integrators[i]}, {"relative_error", errors}, {"bias_z", z}, {"not_finite", not_finite}});
     }
     return result;
 }
@@ -216,11 +238,18 @@ void print_table(const Study& study) {
         const Estimate rmse = root_mean_square(series, last), exponent = slope(series);
         const Estimate efficiency = relative_efficiency(series, baseline(study));
         const auto relative = series.over_seeds(last, &Measurement::relative_squared_error);
-        std::printf("  %-24s %10lld %8.3g %9.3g +- %-8.2g %9.3g +- %-8.2g %6.3f +- %-6.2g %7.3g +- %-7.2g %8.2f %s",
-                    series.name.c_str(), static_cast<long long>(series.samples[last]),
-                    series.over_seeds(last, &Measurement::cpu_seconds).mean(), rmse.value, rmse.standard_error,
-                    relative.mean(), relative.standard_error(), exponent.value, exponent.standard_error,
-                    efficiency.value, efficiency.standard_error, series.pooled.bias_z, name(verdict(series)).data());
+        std::printf("  %-24s %10lld %8.3g %-21s %-21s %-16s %-18s %8s %s", series.name.c_str(),
+                    static_cast<long long>(series.samples[last]),
+                    series.over_seeds(last, &Measurement::cpu_seconds).mean(),
+                    with_error("%9.3g", rmse.value, rmse.standard_error).c_str(),
+                    with_error("%9.3g", relative.mean(), relative.standard_error()).c_str(),
+                    with_error("%6.3f", exponent.value, exponent.standard_error).c_str(),
+                    with_error("%7.3g", efficiency.value, efficiency.standard_error).c_str(),
+                    text("%.3g", series.pooled.bias_z, "-").c_str(), name(verdict(series)).data());
+        if (series.pooled.not_finite > 0) {
+            std::printf(": %lld of %lld %s", static_cast<long long>(series.pooled.not_finite),
+                        static_cast<long long>(series.pooled.evaluated), study.width > 0 ? "pixels" : "samples");
+        }
         if (series.picture) std::printf(", %d fireflies", series.picture->fireflies);
         std::printf("%s\n", series.unbiased ? "" : " (in theory it converges elsewhere)");
     }
@@ -236,21 +265,26 @@ void print_table(const Study& study) {
 
 void write_csv(const std::filesystem::path& file, std::span<const Study> studies) {
     std::ofstream out = open(file);
-    out << "problem,estimator,samples,cpu_seconds,cpu_seconds_se,wall_seconds,rmse,rmse_se,relative_mse,relative_mse_"
-           "se,"
-           "slope,slope_se,efficiency_relative_to_power,efficiency_se\n";
+    out << "problem,estimator,verdict,not_finite,samples,cpu_seconds,cpu_seconds_se,wall_seconds,rmse,rmse_se,"
+           "relative_mse,relative_mse_se,slope,slope_se,efficiency,efficiency_relative_to_power,"
+           "efficiency_relative_to_power_se\n";
     for (const Study& study : studies) {
         for (const Series& series : study.series) {
             const Estimate exponent = slope(series), efficiency = relative_efficiency(series, baseline(study));
+            const double per_second = convergence::efficiency(series).value;
             for (std::size_t i = 0; i < series.samples.size(); ++i) {
                 const auto cpu = series.over_seeds(i, &Measurement::cpu_seconds);
                 const auto relative = series.over_seeds(i, &Measurement::relative_squared_error);
                 const Estimate rmse = root_mean_square(series, i);
-                out << study.name << ',' << series.name << ',' << series.samples[i] << ',' << cpu.mean() << ','
-                    << cpu.standard_error() << ',' << series.over_seeds(i, &Measurement::wall_seconds).mean() << ','
-                    << rmse.value << ',' << rmse.standard_error << ',' << relative.mean() << ','
-                    << relative.standard_error() << ',' << exponent.value << ',' << exponent.standard_error << ','
-                    << efficiency.value << ',' << efficiency.standard_error << '\n';
+                out << study.name << ',' << series.name << ',' << name(verdict(series)) << ','
+                    << series.pooled.not_finite << ',' << series.samples[i];
+                for (const double figure :
+                     {cpu.mean(), cpu.standard_error(), series.over_seeds(i, &Measurement::wall_seconds).mean(),
+                      rmse.value, rmse.standard_error, relative.mean(), relative.standard_error(), exponent.value,
+                      exponent.standard_error, per_second, efficiency.value, efficiency.standard_error}) {
+                    out << ',' << text("%.6g", figure, "");
+                }
+                out << '\n';
             }
         }
     }
@@ -261,7 +295,11 @@ void write_json(const std::filesystem::path& file, std::span<const Study> studie
     json result{{"schema", 1}, {"problems", json::array()}};
     result["machine"] = {{"cpu", cpu_model()},     {"threads", settings.threads}, {"system", operating_system()},
                          {"compiler", compiler()}, {"flags", LUMIS_CXX_FLAGS},    {"date", today()}};
-    result["build"] = {{"version", LUMIS_VERSION}, {"type", LUMIS_BUILD_TYPE}, {"assertions", assertions}};
+    result["build"] = {{"version", LUMIS_VERSION},
+                       {"revision", text_or_null(revision)},
+                       {"type", LUMIS_BUILD_TYPE},
+                       {"assertions", assertions}};
+    result["arguments"] = settings.arguments();
     result["settings"] = {{"seeds", settings.seeds},
                           {"seconds_of_each_run_of_a_scene", settings.seconds},
                           {"seconds_of_each_run_of_an_integral", settings.seconds_of_integrals()},

@@ -19,6 +19,9 @@ struct Settings {
     std::vector<std::string> problems;  // none: all
     bool page = true;
 
+    // What asks for the same measurement, but for the place of its results.
+    [[nodiscard]] std::string arguments() const;
+
     // An integral is one number where an image is thousands: it is run for less, in more estimators.
     [[nodiscard]] double seconds_of_integrals() const { return seconds / 400; }
 };

@@ -23,20 +23,22 @@ constexpr double hemisphere = 2 * std::numbers::pi;
 template <class Estimator, class F>
 StiffCell measure(const Estimator& estimator, const F& f, double answer, int runs, double seconds) {
     constexpr int batch = 256;
-    lumis::RunningMoments<> errors, squares;
+    Moments errors, squares;
+    std::uint64_t not_finite = 0;
     for (int run = 0; run <= runs; ++run) {
         lumis::Uniforms uniforms{tracer::random_stream<pcg64>(static_cast<std::uint64_t>(run))};
-        lumis::RunningMoments<float> estimates;
+        Moments estimates;
         const tracer::ThreadClock clock;
         do {
             for (int i = 0; i < batch; ++i) estimates.add(estimator.estimate(f, uniforms));
         } while (clock.seconds() < seconds);
         if (run == 0) continue;  // warms the machine up
+        not_finite += estimates.rejected();
         const double error = estimates.mean() / answer - 1;
         errors.add(error);
         squares.add(error * error);
     }
-    return {std::sqrt(squares.mean()), errors.mean() / errors.standard_error()};
+    return {std::sqrt(squares.mean()), errors.mean() / errors.standard_error(), not_finite};
 }
 
 // All integrators on one case.
@@ -79,7 +81,10 @@ std::vector<StiffCell> measure_case(double alpha, double solid_angle, int runs, 
 double StiffStudy::worst_error(std::size_t integrator) const {
     double worst = 0;
     for (const auto& row : cells[integrator]) {
-        for (const StiffCell& cell : row) worst = std::max(worst, cell.relative_error);
+        for (const StiffCell& cell : row) {
+            if (!(cell.relative_error <= worst)) worst = cell.relative_error;
+            if (std::isnan(worst)) return worst;
+        }
     }
     return worst;
 }

@@ -3,6 +3,7 @@
 
 #include "study.hpp"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,9 @@ namespace convergence {
 
 // The outcome of one estimator for one roughness and one size of the light.
 struct StiffCell {
-    double relative_error;  // root mean square over the runs, of the answer
-    double bias_z;          // mean error over its standard error
+    double relative_error;     // root mean square over the runs, of the answer
+    double bias_z;             // mean error over its standard error
+    std::uint64_t not_finite;  // estimates of all runs
 };
 
 struct StiffStudy {
@@ -21,7 +23,7 @@ struct StiffStudy {
     std::vector<std::string> integrators;
     std::vector<std::vector<std::vector<StiffCell>>> cells;  // by integrator, alpha, solid angle
 
-    // The largest relative error of an integrator over all cases.
+    // The largest relative error of an integrator over all cases; NaN if one is not finite.
     [[nodiscard]] double worst_error(std::size_t integrator) const;
 };
 

@@ -48,7 +48,7 @@ double slope_without(const Series& series, Over over, std::size_t left_out) {
 double slope_error_of_normal(const Series& series) {
     const std::size_t points = series.samples.size();
     if (std::isnan(series.pooled.mean) || series.runs_per_seed.size() != points) return 0;
-    lumis::RunningMoments<> x;
+    Moments x;
     for (const std::int64_t samples : series.samples) x.add(std::log(static_cast<double>(samples)));
     double variance = 0;
     const double xx = x.variance() * static_cast<double>(points - 1);
@@ -79,7 +79,7 @@ std::size_t firmest_point(const Series& series) {
 
 }  // namespace
 
-Estimate ratio(const lumis::RunningMoments<>& numerator, const lumis::RunningMoments<>& denominator) {
+Estimate ratio(const Moments& numerator, const Moments& denominator) {
     const double value = numerator.mean() / denominator.mean();
     return {value, value * std::hypot(numerator.standard_error() / numerator.mean(),
                                       denominator.standard_error() / denominator.mean())};
@@ -87,7 +87,7 @@ Estimate ratio(const lumis::RunningMoments<>& numerator, const lumis::RunningMom
 
 Estimate slope(const Series& series, Over over) {
     const std::size_t seeds = series.runs.size();
-    lumis::RunningMoments<> without_one;
+    Moments without_one;
     for (std::size_t seed = 0; seed < seeds; ++seed) without_one.add(slope_without(series, over, seed));
     const double variance_factor = squared(static_cast<double>(seeds) - 1) / static_cast<double>(seeds);
     const double jackknife = std::sqrt(variance_factor * without_one.variance());
@@ -113,29 +113,36 @@ double slope_limit(const Series& series) {
 
 double tail_share(std::vector<double> squares) {
     const double all = std::accumulate(squares.begin(), squares.end(), 0.0);
-    if (!(all > 0)) return 0;
+    if (all == 0) return 0;
+    if (!std::isfinite(all)) return nan;  // and NaN has no place in an order
     const auto largest = squares.begin() + static_cast<std::ptrdiff_t>((squares.size() + 999) / 1000);
     std::nth_element(squares.begin(), largest - 1, squares.end(), std::greater<>{});
     return std::accumulate(squares.begin(), largest, 0.0) / all;
 }
 
 Pooled pool(std::span<const double> means, double answer, double answer_error) {
-    lumis::RunningMoments<> moments;
+    Moments moments;
     for (const double mean : means) moments.add(mean);
     std::vector<double> squares;
     for (const double mean : means) squares.push_back(squared(mean - moments.mean()));
     // Sums of numbers in double are off by their rounding, whatever their spread.
     const double rounding = 1e-13 * answer;
     const double error = std::hypot(moments.standard_error(), answer_error, rounding);
-    const bool nothing_hit = std::ranges::all_of(means, [](double mean) { return mean == 0; });
-    return {moments.mean(), moments.standard_error(), (moments.mean() - answer) / error,
-            nothing_hit ? 1 : tail_share(std::move(squares))};
+    const bool no_hits = std::ranges::all_of(means, [](double mean) { return mean == 0; });
+    return {moments.mean(), moments.standard_error(), (moments.mean() - answer) / error, tail_share(std::move(squares)),
+            no_hits};
 }
 
 Verdict verdict(const Series& series) {
+    if (series.pooled.not_finite > 0) return Verdict::NotFinite;
     bool exact = true;
-    for (std::size_t i = 0; i < series.samples.size(); ++i) exact = exact && relative_error(series, i).value < 1e-12;
+    for (std::size_t i = 0; i < series.samples.size(); ++i) {
+        const double squared_error = series.over_seeds(i, &Measurement::relative_squared_error).mean();
+        if (!std::isfinite(squared_error)) return Verdict::NotFinite;
+        exact = exact && std::abs(squared_error) <= squared(1e-12);  // below 0: lost in the reference's own
+    }
     if (exact) return Verdict::Exact;
+    if (series.pooled.no_hits) return Verdict::NoHits;
     const bool image = std::isnan(series.pooled.mean);
     const double tail_limit = image ? Rules::tail_share_limit_of_images : Rules::tail_share_limit;
     if (series.pooled.tail_share > tail_limit) return Verdict::HeavyTails;
@@ -147,6 +154,10 @@ Verdict verdict(const Series& series) {
 
 std::string_view name(Verdict verdict) {
     switch (verdict) {
+        case Verdict::NotFinite:
+            return "not finite";
+        case Verdict::NoHits:
+            return "no hits";
         case Verdict::Exact:
             return "exact";
         case Verdict::HeavyTails:
@@ -168,14 +179,15 @@ std::optional<Effort> effort_to(const Series& series, double target) {
     };
     const auto by_slope = [&](std::size_t point, bool is_beyond) {
         const Effort from = at(point);
-        const double factor = std::max(squared(relative_error(series, point).value / target), 1 / from.samples);
-        return Effort{factor * from.samples, factor * from.cpu_seconds, is_beyond};
+        const double samples = std::max(from.samples * squared(relative_error(series, point).value / target), 1.0);
+        return Effort{samples, from.cpu_seconds * (samples / from.samples), is_beyond};
     };
+    const Verdict found = verdict(series);
+    if (found == Verdict::NotFinite || found == Verdict::NoHits) return {};
     const std::size_t points = series.samples.size();
     std::size_t reached = 0;
     while (reached < points && !(relative_error(series, reached).value <= target)) ++reached;
     const bool is_beyond = reached == 0 || reached == points;
-    const Verdict found = verdict(series);
     if (series.unbiased && found == Verdict::Converges) return by_slope(firmest_point(series), is_beyond);
     if (reached == 0) return by_slope(0, is_beyond);
     if (reached == points) {
@@ -189,19 +201,30 @@ std::optional<Effort> effort_to(const Series& series, double target) {
                   low.cpu_seconds * std::pow(high.cpu_seconds / low.cpu_seconds, part), false};
 }
 
+Estimate efficiency(const Series& series) {
+    const Verdict found = verdict(series);
+    if (found == Verdict::NotFinite || found == Verdict::NoHits || found == Verdict::Exact) return {nan, nan};
+    const std::size_t point = firmest_point(series);
+    const auto error = series.over_seeds(point, &Measurement::relative_squared_error),
+               time = series.over_seeds(point, &Measurement::cpu_seconds);
+    if (!(error.mean() > 0 && time.mean() > 0)) return {nan, nan};
+    const double value = 1 / (error.mean() * time.mean());
+    return {value, value * std::hypot(error.standard_error() / error.mean(), time.standard_error() / time.mean())};
+}
+
 Estimate relative_efficiency(const Series& series, const Series& baseline) {
-    if (&series == &baseline) return {1, 0};
-    const auto of_both = [&](double Measurement::*figure) {
-        return ratio(baseline.over_seeds(firmest_point(baseline), figure),
-                     series.over_seeds(firmest_point(series), figure));
-    };
-    const Estimate error = of_both(&Measurement::relative_squared_error), time = of_both(&Measurement::cpu_seconds);
-    const double value = error.value * time.value;
-    return {value, std::abs(value) * std::hypot(error.standard_error / error.value, time.standard_error / time.value)};
+    const Estimate own = efficiency(series), base = efficiency(baseline);
+    const double value = own.value / base.value;
+    if (&series == &baseline) return {value, 0};
+    return {value, value * std::hypot(own.standard_error / own.value, base.standard_error / base.value)};
 }
 
 const Series& baseline(const Study& study) {
-    return *std::ranges::find(study.series, "power", &Series::name);
+    const auto is_known = [](const Series& series) { return !std::isnan(efficiency(series).value); };
+    const auto power = std::ranges::find(study.series, "power", &Series::name);
+    if (power != study.series.end() && is_known(*power)) return *power;
+    const auto first = std::ranges::find_if(study.series, is_known);
+    return first == study.series.end() ? study.series.front() : *first;
 }
 
 std::vector<std::int64_t> doubling_up_to(std::int64_t largest) {

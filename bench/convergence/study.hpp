@@ -2,7 +2,7 @@
 // what follows from them: error against run time.
 #pragma once
 
-#include <lumis/statistics/running_moments.hpp>
+#include "moments.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -35,11 +35,14 @@ struct Recipe {
     std::vector<double> probabilities{};
 };
 
-// What all samples of all seeds say together.
+// What all samples of all seeds say together; NaN where one of them is not finite.
 struct Pooled {
     double mean{}, standard_error{};  // NaN for an image
     double bias_z{};                  // distance of the mean from the answer, in standard errors of both
     double tail_share{};              // of all squared deviations, what the largest thousandth of them holds
+    bool no_hits{};                   // every estimate is 0
+    std::int64_t not_finite{};        // samples that are not finite; pixels, for the images of all seeds
+    std::int64_t evaluated{};         // how many samples there are, or pixels
 };
 
 struct Series {
@@ -54,8 +57,8 @@ struct Series {
     Pooled pooled;
 
     // Mean over the seeds, at one sample count.
-    [[nodiscard]] lumis::RunningMoments<> over_seeds(std::size_t point, double Measurement::*figure) const {
-        lumis::RunningMoments<> moments;
+    [[nodiscard]] Moments over_seeds(std::size_t point, double Measurement::*figure) const {
+        Moments moments;
         for (const auto& run : runs) moments.add(run[point].*figure);
         return moments;
     }
@@ -77,7 +80,7 @@ struct Reference {
 
 // One of two ways to render a scene, see left_out.hpp.
 struct Variant {
-    lumis::RunningMoments<> seconds_per_sample, relative_squared_error;  // over the seeds
+    Moments seconds_per_sample, relative_squared_error;  // over the seeds
     std::optional<double> instructions_per_sample;
 };
 struct LeftOut {
@@ -102,7 +105,7 @@ struct Estimate {
 };
 
 // Of two independent means.
-[[nodiscard]] Estimate ratio(const lumis::RunningMoments<>& numerator, const lumis::RunningMoments<>& denominator);
+[[nodiscard]] Estimate ratio(const Moments& numerator, const Moments& denominator);
 
 // The exponent of relative error over effort: the least-squares slope of log against log, with its error by leaving out
 // one seed at a time (the jackknife), or of as many normal errors, whichever is larger. -1/2 is Monte Carlo's: exactly so
@@ -129,30 +132,35 @@ struct Rules {
     static constexpr double tail_share_limit = 0.2, tail_share_limit_of_images = 0.5;
 };
 
-// The part of a sum of squares that its largest thousandth (at least one) holds. 0 if all are 0.
+// The part of a sum of squares that its largest thousandth (at least one) holds. 0 if all are 0, NaN if one is not finite.
 [[nodiscard]] double tail_share(std::vector<double> squares);
 
 // What pooled runs of one length say; the answer may itself be off by its error.
 [[nodiscard]] Pooled pool(std::span<const double> means, double answer, double answer_error);
 
 // What the measurement says about where an estimator converges; the first that fits, see SCHEMA.md.
-enum class Verdict { Exact, HeavyTails, Plateau, Converges, Unexplained };
+enum class Verdict { NotFinite, NoHits, Exact, HeavyTails, Plateau, Converges, Unexplained };
 [[nodiscard]] Verdict verdict(const Series& series);
 [[nodiscard]] std::string_view name(Verdict verdict);
 
 // The effort that takes an estimator to a relative error: of one that converges, from where most runs stand behind it, by
-// the slope -1/2; of others between two measured points, and beyond those by the slope. Nothing if a plateau is in the way.
+// the slope -1/2; of others between two measured points, and beyond those by the slope. One sample is the least. Nothing if
+// a plateau is in the way, or the verdict says that nothing is known.
 struct Effort {
     double samples, cpu_seconds;
-    bool extrapolated;
+    bool extrapolated;  // beyond the points measured
 };
 [[nodiscard]] std::optional<Effort> effort_to(const Series& series, double relative_error);
 
-// 1 / (relative squared error x CPU time) over that of the baseline, where most runs stand behind it: an unbiased
-// estimator has the same at every sample count. One that converges elsewhere is judged by its longest run.
+// 1 / (relative squared error x CPU time), in 1/s, where most runs stand behind it: an unbiased estimator has the same at
+// every sample count. One that converges elsewhere is judged by its longest run. NaN where there is no error to go by: of
+// what is exact, not finite or without hits, and where the error vanishes in that of the reference.
+[[nodiscard]] Estimate efficiency(const Series& series);
+
+// The same over that of the baseline.
 [[nodiscard]] Estimate relative_efficiency(const Series& series, const Series& baseline);
 
-// The series called power.
+// The series called power, or the first whose efficiency is known if power has none.
 [[nodiscard]] const Series& baseline(const Study& study);
 
 // Sample counts from 1 to `largest`, each double the one before as nearly as whole numbers allow.

@@ -131,13 +131,25 @@ TEST_CASE("heavy tails are told apart from a bias") {
     CHECK(series.pooled.tail_share >= 0.5);
 }
 
-TEST_CASE("an estimator that has hit nothing yet is not called biased") {
-    CHECK(verdict(measured([](auto&) { return 0.0; }, 2)) == Verdict::HeavyTails);
+TEST_CASE("an estimator that has hit nothing yet is called neither biased nor efficient") {
+    const Series series = measured([](auto&) { return 0.0; }, 2);
+    CHECK(verdict(series) == Verdict::NoHits);
+    CHECK_FALSE(effort_to(series, 1).has_value());
+    CHECK(std::isnan(efficiency(series).value));
 }
 
 TEST_CASE("a constant is exact or a plateau") {
     CHECK(verdict(measured([](auto&) { return 2.0; }, 2)) == Verdict::Exact);
     CHECK(verdict(measured([](auto&) { return 3.0; }, 2)) == Verdict::Plateau);
+}
+
+TEST_CASE("an error that is lost in the reference's own is not exact") {
+    Series series = power_law(0.2, -0.5);
+    for (auto& run : series.runs) {
+        for (Measurement& m : run) m.relative_squared_error = -1e-6;
+    }
+    CHECK(verdict(series) == Verdict::Unexplained);
+    CHECK(std::isnan(efficiency(series).value));
 }
 
 TEST_CASE("a slope that nothing explains is marked") {
@@ -181,7 +193,9 @@ TEST_CASE("the time to an error is interpolated between points and extrapolated 
     CHECK(beyond->extrapolated);
     CHECK_THAT(before->cpu_seconds, WithinRel(0.01, 1e-9));
     CHECK(before->extrapolated);
-    CHECK(effort_to(series, 10)->samples == 1);  // there is no part of a sample
+    const auto one = effort_to(series, 10);  // there is no part of a sample
+    CHECK(one->samples == 1);
+    CHECK_THAT(one->cpu_seconds, WithinRel(1e-3, 1e-9));
 }
 
 TEST_CASE("the time to an error goes by where most runs stand behind it") {
@@ -199,10 +213,33 @@ TEST_CASE("efficiency is the inverse of variance times time") {
         for (Measurement& m : run) m.cpu_seconds *= 2;
     }
     const Series base = measured([](auto& engine) { return 2 + std::normal_distribution{0.0, 0.3}(engine); }, 2);
-    const Estimate efficiency = relative_efficiency(twice, base);
-    CHECK_THAT(efficiency.value, WithinRel(9 / 2.0, 0.25));
-    CHECK(std::abs(efficiency.value - 4.5) <= 4 * efficiency.standard_error);
-    CHECK(efficiency.standard_error <= 0.5);
+    const Estimate relative = relative_efficiency(twice, base);
+    CHECK_THAT(relative.value, WithinRel(9 / 2.0, 0.25));
+    CHECK(std::abs(relative.value - 4.5) <= 4 * relative.standard_error);
+    CHECK(relative.standard_error <= 0.5);
+    // 100 samples take 0.2 ms and are off by 5 %.
+    const Estimate absolute = efficiency(twice);
+    CHECK_THAT(absolute.value, WithinRel(1 / (0.05 * 0.05 * 2e-4), 0.2));
+    CHECK(std::abs(absolute.value - 2e6) <= 4 * absolute.standard_error);
+}
+
+TEST_CASE("an efficiency tells estimators apart of which one sample is enough") {
+    const Series good = normal(2, 1e-3), better = normal(2, 5e-4);
+    CHECK(effort_to(good, 0.01)->samples == 1);
+    CHECK(effort_to(better, 0.01)->samples == 1);
+    CHECK_THAT(relative_efficiency(better, good).value, WithinRel(4.0, 0.25));
+}
+
+TEST_CASE("the baseline is power or the first that has an efficiency") {
+    Study study;
+    study.series = {measured([](auto&) { return 2.0; }, 2), normal(2, 0.1), normal(2, 0.2)};
+    CHECK(&baseline(study) == &study.series[1]);
+    study.series[2].name = "power";
+    CHECK(&baseline(study) == &study.series[2]);
+    CHECK(relative_efficiency(study.series[2], baseline(study)).value == 1);
+    study.series[0].name = "power";
+    study.series[2].name = "another";
+    CHECK(&baseline(study) == &study.series[1]);
 }
 
 TEST_CASE("the band holds the error and widens with the spread of the seeds") {
