@@ -29,7 +29,7 @@ def estimator(name, seconds, **changes):
     return {"name": name, "model": "multi-sample", "heuristic": name, "counts": [1, 1], "probabilities": None,
             "headline": True, "unbiased": True, "verdict": "converges", "points": points, "mean": None,
             "mean_standard_error": None, "bias_z": 0.3, "tail_share": 0.01, "slope": -0.501, "slope_standard_error": 0.004,
-            "efficiency_relative_to_power": 0.02 / seconds, "efficiency_standard_error": 0.001,
+            "efficiency": 1e4 / seconds, "efficiency_relative_to_power": 0.02 / seconds, "efficiency_standard_error": 0.001,
             "to_1_percent": {"samples": seconds * 1e3, "cpu_seconds": seconds, "extrapolated": seconds > 0.064},
             "to_10_percent": {"samples": 1, "cpu_seconds": seconds / 100, "extrapolated": True}} | changes
 
@@ -65,25 +65,70 @@ def scene(folder):
                          "instructions_ratio": None}}
 
 
+def unknown(name, verdict, **changes):
+    """One of which no error is known."""
+    none = dict.fromkeys(("slope", "slope_standard_error", "bias_z", "tail_share", "efficiency",
+                          "efficiency_relative_to_power", "efficiency_standard_error", "to_1_percent", "to_10_percent"))
+    made = estimator(name, 1, verdict=verdict) | none | changes
+    for point in made["points"]:
+        point |= {key: None for key in point if key.startswith("r") and key != "runs"}
+    return made
+
+
+def spoilt():
+    """Some of it is not finite, hits nothing, or is exact."""
+    integrators = [
+        unknown("bsdf", "not finite", model="alone", not_finite=7, evaluated=1000), estimator("power", 0.02),
+        unknown("balance", "not finite", not_finite=999, evaluated=1000), unknown("blind", "no hits", headline=False),
+        unknown("sharp", "exact", model="alone", to_1_percent={"samples": 1, "cpu_seconds": 1e-8, "extrapolated": True})]
+    return example()["problems"][0] | {"name": "spoilt", "title": "Spoilt", "strategies": ["bsdf", "sharp"],
+                                       "integrators": integrators}
+
+
+def close():
+    """One sample is enough for each: the fastest sample is not the best."""
+    integrators = []
+    for name, sample, efficiency, model in (("light", 25e-9, 3.9, "alone"), ("power", 96e-9, 1.0, "multi-sample"),
+                                            ("balance", 105e-9, 0.47, "multi-sample"),
+                                            ("light by solid angle", 58e-9, 16.0, "alone")):
+        enough = {"samples": 1, "cpu_seconds": sample, "extrapolated": True}
+        integrators.append(estimator(name, 1e-7 / efficiency, model=model, to_1_percent=enough, to_10_percent=enough,
+                                     efficiency_relative_to_power=efficiency))
+    return example()["problems"][0] | {"name": "close", "title": "Both are enough", "strategies": ["bsdf", "light"],
+                                       "integrators": integrators}
+
+
+def nothing_finite():
+    results = example()
+    results["problems"][0]["integrators"] = [unknown("power", "not finite", not_finite=5, evaluated=10)]
+    return results
+
+
 def whole(folder):
     results = example()
     steps = results["problems"][0]
     steps["integrators"] = [estimator(name, seconds) for name, seconds in (("balance", 1e-6), ("power", 1.3e-3))]
     steps["integrators"] += [estimator(f"balance 1:{i}", 0.01 * i, headline=False) for i in range(2, 30)]
-    results["problems"].append(scene(folder))
+    results["problems"] += [scene(folder), spoilt(), close()]
     results["error_scale"] = {"low": 1e-3, "high": 10}
     results["build"] = {"version": "0", "type": "Release", "assertions": False}
     results["rules"] = {"bias_z_limit": 5, "tail_share_limit": 0.2, "tail_share_limit_of_images": 0.5,
                         "slope_significance": 1e-4}
     results["groups"] = "a key that nobody knows"
-    results["stiff"] = {"alphas": [0.1, 0.01], "solid_angles": [1e-6, 6.283185307179586], "seconds": 2e-3, "runs": 16,
-                        "integrators": [{"name": "bsdf", "relative_error": [[None, None], [None, None]]},
-                                        {"name": "power", "relative_error": [[1e-7, 0.3], [None, 2.5]]}]}
+    errors = [[4.3e-8, 9.3e-7, 8.4e-5, 2.6e-3, 4.3e-3], [9.1e-7, 8.4e-5, 2.7e-3, 0.032, 0.048],
+              [8.6e-5, 2.6e-3, 0.033, 0.22, 0.53], [2.6e-3, 0.033, 0.22, 1.6, 42]]
+    spoilt_errors, spoilt_counts = [list(row) for row in errors], [[0] * 5 for _ in errors]
+    spoilt_errors[1][2], spoilt_counts[1][2] = None, 3
+    results["stiff"] = {"alphas": [0.1, 0.01, 0.001, 0.0001], "solid_angles": [1e-6, 1e-4, 1e-2, 1, 6.283185307179586],
+                        "seconds": 2e-3, "runs": 16, "integrators": [
+                            {"name": "bsdf", "relative_error": spoilt_errors, "not_finite": spoilt_counts},
+                            {"name": "power", "relative_error": errors}]}
     return results
 
 
 def stability():
-    row = {"kernel": "uniforms", "case": "engines of 16 to 64 bits", "scalar": "float", "reference": "quad",
+    row = {"kernel": "SphericalRectangle, a sliver", "case": "ratios of edges from 1 to 1e6, seen from all sides, near and far",
+           "scalar": "float", "reference": "quad",
            "evaluations": 1000, "misbehaved": 0, "has_error": True, "worst_error": 1e-7, "error_limit": 1e-6,
            "has_usual": True, "usual_error": None, "has_z": False, "worst_z": None, "z_limit": 5, "standard_error": None,
            "cpu_seconds": 0.1, "passed": True}

@@ -1,4 +1,4 @@
-"""Opens a report's page in Chromium, as wide as a desk's screen and as a phone's, and tries all that a reader would.
+"""Opens a report's page in Chromium, on a desk, a tablet and a phone, in light and dark, and tries all that a reader would.
 
     page_test.py --folder F         makes pages of made-up results in F, and tests them
     page_test.py PAGE...            tests these pages
@@ -15,82 +15,12 @@ from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 
 import made_up_results
+from page_checks import AT_FIRST, CHECKS, ON_PAPER
 
-WIDTHS = {"desk": 1400, "phone": 390}
+SCREENS = {"desk": (1400, "light"), "tablet": (768, "dark"), "phone": (390, "light"),
+           "desk by night": (1400, "dark")}
+PAPER = 718  # pixels across an A4 sheet within its margins
 REPORT = made_up_results.BENCH / "report" / "report.py"
-
-# Each of these yields a list of what is wrong.
-CHECKS = {
-    "everything is in the page": """
-        return performance.getEntriesByType("resource").map(entry => entry.name).filter(name => !name.startsWith("data:"))
-            .map(name => "it loads " + name)""",
-    "every image and plot shows": """
-        const wrong = [...document.images].filter(image => {
-            const box = image.getBoundingClientRect();
-            return !image.complete || image.naturalWidth < 8 || box.width < 40 || box.height < 15;
-        }).map(image => "not shown: " + image.alt);
-        if (!document.images.length) wrong.push("there is no image");
-        return wrong.concat([...document.images].filter(image => !image.alt).map(() => "an image without words for it"))""",
-    "no figure is missing": """
-        return [...document.querySelectorAll("p, td:not(.prose), th, dd, li, figcaption")].map(e => e.innerText)
-            .filter(text => /undefined|\\bNone\\b|\\bnan\\b|NaN/.test(text)).map(text => "the text has: " + text)""",
-    "nothing is wider than the screen": """
-        const width = document.documentElement.clientWidth;
-        if (document.documentElement.scrollWidth > width) return ["the page scrolls sideways"];
-        return [...document.querySelectorAll("p, h1, h2, h3, img, canvas, dd, li, .table, summary")]
-            .filter(e => !e.closest(".table") || e.matches(".table"))
-            .filter(e => e.getBoundingClientRect().right > width + 1 || e.scrollWidth > e.clientWidth + 1 && e.matches("p, h1, h2, h3, dd, summary"))
-            .map(e => "too wide: " + e.outerHTML.slice(0, 80))""",
-    "text can be read": """
-        const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT), small = [];
-        while (walker.nextNode()) {
-            const node = walker.currentNode, parent = node.parentElement;
-            if (!node.data.trim() || parent.closest("script, style")) continue;
-            if (parseFloat(getComputedStyle(parent).fontSize) < 11) small.push("too small: " + node.data.trim().slice(0, 60));
-        }
-        return small""",
-    "tables sort by each column, both ways": """
-        const wrong = [];
-        for (const table of document.querySelectorAll("table")) {
-            [...table.tHead.rows[0].cells].forEach((header, column) => {
-                for (const again of [false, true]) {
-                    header.querySelector("button").click();
-                    const sign = header.getAttribute("aria-sort") === "descending" ? -1 : 1;
-                    const values = [...table.tBodies[0].rows].map(row => row.cells[column].dataset.value);
-                    const known = values.filter(value => value !== "");
-                    const isText = header.classList.contains("name");
-                    const inOrder = (a, b) => isText ? sign * a.localeCompare(b) <= 0 : sign * (a - b) <= 0;
-                    if (!known.every((value, i) => i === 0 || inOrder(known[i - 1], value))
-                        || values.slice(known.length).some(value => value !== ""))
-                        wrong.push(header.innerText + " does not sort in " + table.parentNode.ariaLabel);
-                    if (!isText && known.some(value => isNaN(Number(value)))) wrong.push(header.innerText + " is not of numbers");
-                }
-            });
-        }
-        if (!document.querySelector("table")) wrong.push("there is no table");
-        return wrong""",
-    "a closer look follows": """
-        const wrong = [];
-        for (const looker of document.querySelectorAll(".looker")) {
-            const seen = () => [...looker.querySelectorAll("canvas")].map(canvas => canvas.toDataURL()).join();
-            const views = [...looker.querySelectorAll("canvas")];
-            if (views.length !== looker.querySelectorAll(".view").length || views.length < 3) wrong.push("a view is missing");
-            const isBlank = canvas => canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data
-                .every(byte => byte === 0);
-            if (views.some(isBlank)) wrong.push("a view is blank");
-            const before = seen(), image = looker.querySelector(".view img"), box = image.getBoundingClientRect();
-            image.dispatchEvent(new MouseEvent("click", {clientX: box.left + 1, clientY: box.top + 1}));
-            if (seen() === before) wrong.push("a tap changes nothing");
-            const far = seen(), range = looker.querySelector("input");
-            range.value = range.max;
-            range.dispatchEvent(new Event("input"));
-            if (seen() === far) wrong.push("no closer");
-            looker.querySelector("button").click();
-            if (looker.querySelectorAll("button[aria-pressed=true]").length !== 1) wrong.push("no button is pressed");
-        }
-        return wrong""",
-}
-
 
 def browser(driver):
     options = webdriver.ChromeOptions()
@@ -102,36 +32,78 @@ def browser(driver):
     return webdriver.Chrome(service=Service(driver), options=options)
 
 
+def emulate(chromium, width, scheme, medium=""):
+    # Headless windows have a least width; a device's need not.
+    chromium.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                             {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 600})
+    chromium.execute_cdp_cmd("Emulation.setEmulatedMedia",
+                             {"media": medium, "features": [{"name": "prefers-color-scheme", "value": scheme}]})
+
+
+def open_page(page, chromium):
+    chromium.get(page.resolve().as_uri())
+    chromium.execute_async_script(
+        "const done = arguments[0]; Promise.all([...document.images].map(image => image.decode().catch(() => {})))"
+        ".then(() => requestAnimationFrame(() => done()))")
+
+
 def problems_of(page, chromium):
     wrong = []
-    for name, width in WIDTHS.items():
-        # Headless windows have a least width; a device's need not.
-        chromium.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                                 {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": name == "phone"})
-        chromium.get(page.resolve().as_uri())
-        chromium.execute_script("document.querySelectorAll('details').forEach(details => details.open = true)")
+
+    def run(checks, where):
+        nonlocal wrong
+        for check, script in checks.items():
+            wrong += [f"{page}, {where}: {check}: {found}" for found in chromium.execute_script(script)]
+
+    for name, (width, scheme) in SCREENS.items():
+        emulate(chromium, width, scheme)
+        open_page(page, chromium)
+        run(AT_FIRST, name)
+        # Two frames: observers of sizes are told after the first.
         chromium.execute_async_script(
-            "const done = arguments[0]; Promise.all([...document.images].map(image => image.decode().catch(() => {})))"
-            ".then(() => requestAnimationFrame(() => done()))")
-        for check, script in CHECKS.items():
-            wrong += [f"{page}, {name}: {check}: {found}" for found in chromium.execute_script(script)]
+            "document.querySelectorAll('details').forEach(details => details.open = true);"
+            "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(() => done()))")
+        run(CHECKS, name)
         wrong += [f"{page}, {name}: {entry['level']}: {entry['message']}" for entry in chromium.get_log("browser")]
+    emulate(chromium, PAPER, "light", "print")
+    open_page(page, chromium)
+    run(dict(reversed(ON_PAPER.items())), "paper")
+    emulate(chromium, SCREENS["desk"][0], "light")
     return wrong
 
 
 def misstatements(page, chromium):
     """What the page of made-up results says otherwise than they do."""
-    chromium.get(page.resolve().as_uri())
-    names, verdicts, factors, first = chromium.execute_script("""
-        const rows = [...document.querySelector("#made-up .table tbody").rows];
-        const overview = [...document.querySelector(".whole tbody").rows].find(row => row.innerText.includes("made-up"));
-        return [rows.map(row => row.cells[0].dataset.value), rows.map(row => row.cells[8].dataset.value),
-                [...overview.cells].map(cell => cell.innerText.split("\\n")[0]), rows[0].innerText]""")
+    open_page(page, chromium)
+    scene, spoilt, close, overview, first, spoilt_text, totals = chromium.execute_script("""
+        const table = id => [...document.querySelector(`#${id} .table tbody`).rows];
+        const column = (id, i) => table(id).map(row => row.cells[i].dataset.value);
+        const row = title => [...document.querySelector(".whole tbody").rows].find(row => row.innerText.includes(title));
+        const cells = title => [...row(title).cells].map(cell => cell.innerText.split("\\n")[0]);
+        document.querySelectorAll("details").forEach(details => details.open = true);
+        return [[column("made-up", 0), column("made-up", 1)], [column("spoilt", 0), column("spoilt", 1)],
+                [column("close", 0), cells("Both are enough")], [cells("made-up"), cells("Spoilt")],
+                table("made-up")[0].innerText, document.querySelector("#spoilt").innerText,
+                [...document.querySelector(".whole tfoot").rows].map(row => [...row.cells].map(cell => cell.innerText))]""")
+    close_text = chromium.find_element("id", "close").text
     expected = {
-        "ranking": (names, ["power", "balance", "one-sample", "bsdf", "average", "light"]),
-        "verdicts": (verdicts, ["converges"] * 3 + ["heavy tails", "converges", "plateau"]),
-        "overview": (factors[1:7], ["1.1", "1.0", "2.5", "150", "45!", "never"]),  # a time of 0.02 s is the fastest
-        "first row": ([text in first for text in ("20\u00a0ms", "200\u00a0µs*", "✓ converges")], [True] * 3)}
+        "ranking": (scene[0], ["power", "balance", "one-sample", "bsdf", "average", "light"]),
+        "verdicts": (scene[1], ["converges"] * 3 + ["heavy tails", "converges", "plateau"]),
+        "overview": (overview[0][1:7], ["1.1", "1.0", "2.5", "150", "45!", "never"]),  # a time of 0.02 s is the best
+        "first row": ([text in first for text in ("20\u00a0ms", "200\u00a0µs", "20 samples", "one sample", "✓ converges")], [True] * 5),
+        "ranking of what is spoilt": (spoilt[0], ["sharp", "power", "blind", "bsdf", "balance"]),
+        "its verdicts": (spoilt[1], ["exact", "converges", "no hits", "not finite", "not finite"]),
+        "its row": (overview[1][1:8], ["not finite", "1.0", "–", "–", "exact", "not finite", "–"]),
+        "its count": ("7 of 1,000 samples" in spoilt_text, True),
+        # Already one sample is below 1 %: the time to it says nothing, and the efficiency all.
+        "ranking by efficiency": (close[0], ["light by solid angle", "light", "power", "balance"]),
+        "its factors": ([close[1][i] for i in (1, 2, 5, 7)], ["8.3", "3.9", "1.0", "0.24"]),
+        "its words": ([text in close_text for text in ("one sample", "4.1 times as efficient")], [True] * 2),
+        "what is left of the mean": (totals[0][1].startswith("2.1") and "but in 1 never" in totals[0][1], True)}
+    header = chromium.find_element("css selector", "#made-up .table th button")
+    header.send_keys("\ue007")  # Enter
+    sorted_by = chromium.execute_script("return arguments[0].closest('th').getAttribute('aria-sort')", header)
+    expected["sorting by the keyboard"] = sorted_by, "ascending"
     return [f"{page}: {what} is {found}, expected {wanted}" for what, (found, wanted) in expected.items() if found != wanted]
 
 
@@ -167,9 +139,15 @@ def with_image_elsewhere(results, folder):
     return results
 
 
+def with_unknown_verdict(results, folder):
+    results["problems"][0]["integrators"][0]["verdict"] = "fine"
+    return results
+
+
 REFUSED = {  # how results are spoilt, and what has to be said about it
     "a missing time": (without_time, "problems[0].integrators[0].points[0].cpu_seconds is missing"),
     "a reference without an error": (with_unknown_reference, "problems[0].reference.relative_mse is null"),
+    "an unknown verdict": (with_unknown_verdict, "the verdict 'fine' is none of exact"),
     "a broken image": (with_broken_image, "power.png"),
     "an image elsewhere": (with_image_elsewhere, "'../example/index.html' is not in the folder"),
 }
@@ -179,7 +157,8 @@ def made_up_pages(folder):
     """Pages, and what went wrong on the way to them."""
     wrong, pages = [], []
     for page, outcome in (draw(folder, "example", made_up_results.example()),
-                          draw(folder, "whole", made_up_results.whole, made_up_results.stability())):
+                          draw(folder, "whole", made_up_results.whole, made_up_results.stability()),
+                          draw(folder, "nothing", made_up_results.nothing_finite())):
         pages.append(page)
         wrong += [f"{page}: {outcome.stderr}"] if outcome.returncode else []
     for name, (spoil, message) in REFUSED.items():
@@ -208,7 +187,7 @@ def main():
                 wrong += misstatements(arguments.folder / "whole" / "index.html", chromium)
         finally:
             chromium.quit()
-    print(*wrong or [f"{len(pages)} pages, {len(WIDTHS)} widths, {len(CHECKS)} checks: all is well"], sep="\n")
+    print(*wrong or [f"{len(pages)} pages, {len(SCREENS)} screens, {len(CHECKS)} checks: all is well"], sep="\n")
     return 1 if wrong else 0
 
 

@@ -37,6 +37,11 @@ def variable(color):
     return "--c" + color[1:]
 
 
+def palette():
+    """The colors as variables of a style sheet, for what stands beside a figure: on light paper, and on dark."""
+    return [Markup("".join(f"{variable(pair[0])}:{pair[i]};" for pair in ON_DARK.items())) for i in (0, 1)]
+
+
 def svg(figure):
     """The figure, closed, as SVG whose colors follow the reader's choice of light or dark."""
     out = io.StringIO()
@@ -51,7 +56,7 @@ def svg(figure):
     for color in ON_DARK:
         text = text.replace(color, f"var({variable(color)})")
     text = re.sub(r"\s*\n\s*", "\n", text)
-    light, dark = ("".join(f"{variable(pair[0])}:{pair[i]};" for pair in ON_DARK.items()) for i in (0, 1))
+    light, dark = palette()
     style = (f"<style>svg{{--font:system-ui,'DejaVu Sans',sans-serif;{light}}}"
              f"@media(prefers-color-scheme:dark){{svg{{{dark}}}}}</style>")
     return re.sub(r"(<svg[^>]*>)", lambda head: head[1] + style, text, count=1)

@@ -1,4 +1,4 @@
-"""What the page says of the figures: who arrives first, by how much, and whom not to trust."""
+"""What the page says of the figures: which estimator is the most efficient, by how much, and whom not to trust."""
 
 import math
 
@@ -6,6 +6,9 @@ from figures import COLORS, MARKERS
 
 TRUSTED = ("converges", "exact")
 COMBINED = ("balance", "power", "one-sample", "average")  # of the overview: in every problem, under these names
+ALONE = ("best alone", "worst alone")
+LEVELS = (1.5, 5, 50, 1000)  # factors beyond which a cell has the next color
+ENOUGH = 10  # problems, to say of an estimator that it is the choice where nothing is known
 
 
 def find(results):
@@ -15,11 +18,15 @@ def find(results):
         for integrator in problem["integrators"]:
             integrator["style"] = styles.get(integrator["name"]) if integrator["headline"] else None
         problem["ranking"] = sorted(problem["integrators"], key=rank)
-        rivals = [i for i in problem["ranking"] if is_trusted(i) and combines_all(i, problem)]
-        problem["fastest"] = next((i for i in rivals if seconds(i)), None)
-        problem["other"] = next((i for i in problem["ranking"] if is_trusted(i) and not combines_all(i, problem)
-                                 and seconds(i)), None)
-    return [overview_row(problem) for problem in results["problems"] if problem["fastest"]]
+        trusted = [i for i in problem["ranking"] if is_trusted(i)]
+        measured = [i for i in trusted if i["efficiency"]]
+        problem["baseline"] = next((i["name"] for i in sorted(problem["integrators"], key=lambda i: i["name"] != "power")
+                                    if i["efficiency_relative_to_power"] == 1), None)
+        problem["exact"] = [i["name"] for i in trusted if i["verdict"] == "exact"]
+        problem["not_finite"] = [i["name"] for i in problem["ranking"] if i["verdict"] == "not finite"]
+        problem["best"] = next((i for i in measured if combines_all(i, problem)), None)
+        problem["other"] = next((i for i in measured if not combines_all(i, problem)), None)
+    return [overview_row(problem) for problem in results["problems"]]
 
 
 def choose_styles(problems):
@@ -35,56 +42,78 @@ def choose_styles(problems):
     return styles
 
 
-def seconds(integrator, goal="to_1_percent"):
-    """CPU seconds to an error, or None if it never gets there."""
-    return integrator[goal] and integrator[goal]["cpu_seconds"]
-
-
 def is_trusted(integrator):
     return integrator["unbiased"] and integrator["verdict"] in TRUSTED
 
 
 def combines_all(integrator, problem):
     """Whether it is made of the techniques that the problem compares, and not of another one."""
-    return integrator["model"] != "alone" or problem["kind"] == "render" or integrator["name"] in problem["strategies"]
+    return (integrator["model"] != "alone" or problem["kind"] == "render" or not problem["strategies"]
+            or integrator["name"] in problem["strategies"])
+
+
+def obstacle(integrator):
+    """Why no time is enough for it to arrive; empty if one is."""
+    if integrator["verdict"] in ("not finite", "no hits"):
+        return integrator["verdict"]
+    return "never" if not integrator["unbiased"] or integrator["verdict"] == "plateau" else ""
 
 
 def rank(integrator):
-    """What is wrong comes last, and before it what never arrives."""
-    return not integrator["unbiased"], seconds(integrator) is None, seconds(integrator) or 0
+    """By efficiency, which is endless for what is exact. Behind: what is not known, then what is wrong, and last what is
+    not finite."""
+    behind = ("", "no hits", "never", "not finite").index(obstacle(integrator))
+    if integrator["verdict"] == "exact":
+        return behind, -math.inf
+    return behind, -(integrator["efficiency"] or 0)
 
 
 def overview_row(problem):
-    """How many times as long as the fastest each takes to an error of 1 %; of the techniques alone, the best and the
-    worst; and the best of those that the problem does not combine."""
-    slowdown = {i["name"]: cell(i, problem["fastest"]) for i in problem["integrators"]}
-    alone = [slowdown[i["name"]] | {"name": i["name"]} for i in problem["integrators"]
+    """How many times as long as the best each takes to the same error; of the techniques alone, the best and the worst;
+    and the best of those that the problem does not combine."""
+    cells = {i["name"]: cell(i, problem["best"]) for i in problem["integrators"]}
+    alone = [cells[i["name"]] | {"name": i["name"]} for i in problem["integrators"]
              if i["model"] == "alone" and combines_all(i, problem)]
-    alone = sorted(alone, key=lambda one: one["factor"]) or [None]
-    other = problem["other"] and slowdown[problem["other"]["name"]] | {"name": problem["other"]["name"]}
-    return {"problem": problem, "cells": [slowdown.get(name) for name in COMBINED] + [alone[0], alone[-1], other]}
+    alone = sorted((one for one in alone if one["factor"] is not None), key=lambda one: one["factor"]) or [None]
+    other = problem["other"] and cells[problem["other"]["name"]] | {"name": problem["other"]["name"]}
+    return {"problem": problem, "cells": [cells.get(name) for name in COMBINED] + [alone[0], alone[-1], other]}
 
 
-def cell(integrator, fastest):
-    time = seconds(integrator) if integrator["unbiased"] else None
-    return {"factor": time / seconds(fastest) if time else math.inf, "trusted": is_trusted(integrator)}
+def cell(integrator, best):
+    """The factor is 0 for what is exact, endless where there is an obstacle, and None if nothing is known."""
+    found = {"trusted": is_trusted(integrator), "word": obstacle(integrator), "factor": None}
+    if found["word"]:
+        found["factor"] = math.inf
+    elif integrator["verdict"] == "exact":
+        found |= {"word": "exact", "factor": 0.0}
+    elif best and integrator["efficiency"]:
+        found["factor"] = best["efficiency"] / integrator["efficiency"]
+    return found
 
 
 def totals(overview):
-    """Of each column of the overview: the geometric mean of its factors, how many never arrive, and the largest. And the
-    name in the overview that is the choice where nothing is known, if there are problems enough to tell."""
-    columns = [[cell["factor"] for cell in column if cell] for column in zip(*(row["cells"] for row in overview))]
+    """For each column of the overview: the geometric mean of its factors, how many never arrive, and the largest. The
+    name in the overview that is the choice where nothing is known, if there are problems enough to tell. And the median
+    of what a factor's standard error is of it."""
+    columns = [[cell["factor"] for cell in column if cell and cell["factor"]]
+               for column in zip(*(row["cells"] for row in overview))]
     summaries = []
     for factors in columns:
         finite = [factor for factor in factors if math.isfinite(factor)]
         summaries.append({"typical": math.exp(sum(map(math.log, finite)) / len(finite)) if finite else None,
-                          "never": len(factors) - len(finite), "worst": max(factors, default=None)})
+                          "never": len(factors) - len(finite), "worst": max(factors, default=None),
+                          "worst_finite": max(finite, default=None)})
     combined = dict(zip(COMBINED, summaries))
     safest = min((name for name in combined if combined[name]["typical"] and not combined[name]["never"]),
                  key=lambda name: combined[name]["typical"], default=None)
-    return {"columns": summaries, "safest": safest and {"name": safest} | combined[safest] if len(overview) >= 10 else None}
+    spreads = sorted(i["efficiency_standard_error"] / i["efficiency_relative_to_power"]
+                     for row in overview for i in row["problem"]["integrators"]
+                     if i["efficiency_standard_error"] and i["efficiency_relative_to_power"])
+    return {"columns": summaries, "spread": spreads[len(spreads) // 2] if spreads else None,
+            "alone": summaries[len(COMBINED) + 1] if summaries else None,
+            "safest": safest and {"name": safest} | combined[safest] if len(overview) >= ENOUGH else None}
 
 
 def level(factor):
     """How bad a factor is, from 0 (none) to 4, for its color."""
-    return sum(factor > limit for limit in (1.5, 5, 50, 1000))
+    return sum(factor > limit for limit in LEVELS)

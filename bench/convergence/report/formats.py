@@ -36,7 +36,7 @@ def with_error(value, error):
     """`value` and "± error": the error to one digit, or two if it begins with 1, and the value as far."""
     if value is None or not error:
         return figure(value), ""
-    scale = magnitude(value)
+    scale = max(magnitude(value), magnitude(error)) if value else magnitude(error)
     plain = -4 <= scale < 7
     factor = 1 if plain else 10.0 ** scale
     value, error = value / factor, error / factor

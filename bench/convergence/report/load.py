@@ -10,11 +10,13 @@ TEXT, TRUTH, COUNT, LIST, KNOWN, NUMBER = (str,), (bool,), (int,), (list,), (int
 EFFORT = {"samples": NUMBER, "cpu_seconds": NUMBER, "extrapolated": TRUTH}
 POINT = {"samples": COUNT} | dict.fromkeys((
     "cpu_seconds", "wall_seconds", "relative_rmse", "relative_rmse_low", "relative_rmse_high"), NUMBER)
+VERDICTS = ("exact", "converges", "heavy tails", "unexplained", "plateau", "no hits", "not finite")
 INTEGRATOR = {
     "name": TEXT, "model": TEXT, "unbiased": TRUTH, "headline": TRUTH, "verdict": TEXT, "points": [POINT],
     "to_1_percent?": EFFORT, "to_10_percent?": EFFORT, "image?": TEXT, "error_image?": TEXT, "image_spp?": NUMBER,
-    "image_seconds?": NUMBER, "fireflies?": COUNT} | dict.fromkeys((
-        "slope", "slope_standard_error", "bias_z", "efficiency_relative_to_power", "efficiency_standard_error"), NUMBER)
+    "image_seconds?": NUMBER, "fireflies?": COUNT, "not_finite?": COUNT, "evaluated?": COUNT} | dict.fromkeys((
+        "slope", "slope_standard_error", "bias_z", "efficiency", "efficiency_relative_to_power",
+        "efficiency_standard_error"), NUMBER)
 AGREEMENT = {"integrators": LIST, "block": COUNT, "blocks": COUNT, "worst_z": NUMBER, "limit": NUMBER}
 REFERENCE = {"source": TEXT, "value?": NUMBER, "value_error?": NUMBER, "relative_mse": KNOWN,
              "image?": TEXT, "agreement?": AGREEMENT}
@@ -28,9 +30,9 @@ PROBLEM = {"name": TEXT, "group": TEXT, "title": TEXT, "kind": TEXT, "descriptio
            "width?": COUNT, "height?": COUNT, "runs": COUNT, "reference": REFERENCE, "integrators": [INTEGRATOR],
            "left_out?": LEFT_OUT}
 STIFF = {"alphas": LIST, "solid_angles": LIST, "seconds": NUMBER, "runs": COUNT,
-         "integrators": [{"name": TEXT, "relative_error": LIST}]}
+         "integrators": [{"name": TEXT, "relative_error": LIST, "not_finite?": LIST}]}
 RESULTS = {"machine": {"cpu": TEXT, "threads": COUNT, "compiler": TEXT, "flags": TEXT, "date": TEXT, "system?": TEXT},
-           "build?": {"version?": TEXT, "type?": TEXT, "assertions?": TRUTH},
+           "build?": {"version?": TEXT, "revision?": TEXT, "type?": TEXT, "assertions?": TRUTH}, "arguments?": TEXT,
            "settings": {"seeds": [COUNT]},
            "rules?": dict.fromkeys(("bias_z_limit", "tail_share_limit", "tail_share_limit_of_images",
                                     "slope_significance"), NUMBER),
@@ -52,6 +54,9 @@ def load(path):
             raise ValueError(f"the problem name '{name}' is used twice or is not of letters, digits, _ and -")
         if kind != "integral" and (kind != "render" or not problem["width"] or not problem["height"]):
             raise ValueError(f"problem {name} is neither an 'integral' nor a 'render' of known width and height")
+        for integrator in problem["integrators"]:
+            if integrator["verdict"] not in VERDICTS:
+                raise ValueError(f"problem {name}: the verdict '{integrator['verdict']}' is none of {', '.join(VERDICTS)}")
         images = [owner["image"] for owner in (problem["reference"], *problem["integrators"])]
         errors = [integrator["error_image"] for integrator in problem["integrators"]]
         if any(errors) and not results["error_scale"]:

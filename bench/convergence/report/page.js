@@ -1,10 +1,10 @@
 // Tables sort by any column: what has no value stays last.
-for (const table of document.querySelectorAll("table")) {
+for (const table of document.querySelectorAll(".table table")) {
   const headers = [...table.tHead.rows[0].cells], body = table.tBodies[0];
   headers.forEach((header, column) => header.querySelector("button").addEventListener("click", () => {
     const text = header.classList.contains("name");
     const previous = header.getAttribute("aria-sort");
-    const sign = previous ? (previous === "ascending" ? -1 : 1) : 1;
+    const sign = previous === "ascending" ? -1 : 1;
     const value = row => row.cells[column].dataset.value;
     const order = (a, b) => text ? a.localeCompare(b) : a - b;
     headers.forEach(other => other.removeAttribute("aria-sort"));
@@ -12,6 +12,27 @@ for (const table of document.querySelectorAll("table")) {
     body.append(...[...body.rows].sort((a, b) =>
       (value(a) === "") - (value(b) === "") || sign * order(value(a), value(b))));
   }));
+}
+
+// What of a table is hidden stands above it, for as long as it is.
+for (const holder of document.querySelectorAll(".holder")) {
+  const place = holder.querySelector(".table"), hint = holder.querySelector(".hint"), table = place.querySelector("table");
+  const headers = [...table.tHead.rows[0].cells], rows = [...table.tBodies[0].rows];
+
+  function tell() {
+    const box = place.getBoundingClientRect(), first = headers[0].getBoundingClientRect().right;
+    const names = cells => cells.map(cell => cell.innerText.replace(/\s+/g, " ").trim()).join(", ");
+    const right = headers.slice(1).filter(cell => cell.getBoundingClientRect().right > box.right + 1);
+    const left = headers.slice(1).filter(cell => cell.getBoundingClientRect().left < first - 1);
+    const below = rows.filter(row => row.getBoundingClientRect().bottom > box.bottom + 1).length;
+    const hidden = [left.length && `← ${names(left)}`, right.length && `${names(right)} →`,
+      below && `↓ ${below} more row${below > 1 ? "s" : ""}`].filter(Boolean);
+    hint.hidden = place.scrollWidth <= place.clientWidth + 1 && place.scrollHeight <= place.clientHeight + 1;
+    hint.textContent = hidden.length ? "Scroll the table: " + hidden.join(" · ") : "The end of the table.";
+    place.parentNode.classList.toggle("more", right.length > 0);
+  }
+  place.addEventListener("scroll", tell, {passive: true});
+  new ResizeObserver(tell).observe(place);
 }
 
 // A closer look at one place of a scene in all its images at once.
@@ -67,3 +88,11 @@ function openTarget() {
 }
 addEventListener("hashchange", openTarget);
 openTarget();
+
+// Paper has room for what is folded on the screen.
+let folded = [];
+addEventListener("beforeprint", () => {
+  folded = [...document.querySelectorAll("details:not([open])")];
+  folded.forEach(details => details.open = true);
+});
+addEventListener("afterprint", () => folded.forEach(details => details.open = false));

@@ -15,31 +15,36 @@ REGION = 24  # pixels along the edge of what is looked at closely
 
 
 class Pictures:
-    """Reads images beside the results; with `width`, smaller, and renderings lossily compressed."""
+    """Reads images beside the results, pixel by pixel; with `names`, those of these integrators alone."""
 
-    def __init__(self, folder, decades, width=None):
-        self.folder, self.decades, self.width = folder, decades, width
+    def __init__(self, folder, decades, names=()):
+        self.folder, self.decades, self.names = folder, decades, names
+
+    def shown(self, problem):
+        """The integrators whose images the page has."""
+        pictured = [integrator for integrator in problem["integrators"] if integrator["image"]]
+        return [integrator for integrator in pictured if not self.names or integrator["name"] in self.names]
+
+    def left_out(self, problem):
+        """The names of those whose images it has not."""
+        return [integrator["name"] for integrator in problem["integrators"]
+                if integrator["image"] and self.names and integrator["name"] not in self.names]
 
     def image(self, name):
         with Image.open(self.folder / name) as image:
-            return self.encode(self.shrunk(image.convert("RGB")), lossless=not self.width)
+            return self.encode(image.convert("RGB"))
 
     def error(self, name):
         """Levels of grey as false colors."""
         with Image.open(self.folder / name) as image:
-            grey = self.shrunk(image.convert("L"))
+            grey = image.convert("L")
         grey.putpalette(matplotlib.colormaps[CMAP](np.arange(256), bytes=True)[:, :3].tobytes())
-        return self.encode(grey, lossless=True)
-
-    def shrunk(self, image):
-        if not self.width or image.width <= self.width:
-            return image
-        return image.resize((self.width, round(image.height * self.width / image.width)), Image.Resampling.BOX)
+        return self.encode(grey)
 
     @staticmethod
-    def encode(image, lossless):
+    def encode(image):
         out = io.BytesIO()
-        image.save(out, "webp", lossless=lossless, quality=30 if lossless else 80, method=4)
+        image.save(out, "webp", lossless=True, quality=30, method=4)  # quality: of the compression
         return data_uri(out.getvalue(), "webp")
 
     def hard_regions(self, problem):
@@ -67,8 +72,8 @@ def worst_region(errors):
 
 def color_bar(scale):
     """What the false colors mean."""
-    figure, axes = plt.subplots(figsize=(2.4, 0.42))
-    figure.subplots_adjust(left=0.09, right=0.88, bottom=0.6, top=1)
+    figure, axes = plt.subplots(figsize=(3, 0.42))
+    figure.subplots_adjust(left=0.08, right=0.9, bottom=0.6, top=1)
     norm = LogNorm(scale["low"], scale["high"])
     bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, CMAP), cax=axes, orientation="horizontal")
     bar.ax.xaxis.set_major_formatter(lambda error, position: f"{100 * error:,g} %")

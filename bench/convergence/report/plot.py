@@ -10,7 +10,7 @@ from figures import QUIET, picture
 from formats import decimals, figure as significant, power_of_ten
 
 KEYS = ("cpu_seconds", "relative_rmse", "relative_rmse_low", "relative_rmse_high")
-SIZE = (4.3, 3.4)  # inches of 96 pixels
+SIZE = (3.5, 3.1)  # inches of 96 pixels
 
 
 def plot(problem):
@@ -23,6 +23,8 @@ def plot(problem):
     drawn = [draw(axes, integrator) for integrator in problem["integrators"] if integrator["headline"]]
     if points := [line for line in drawn if line is not None]:
         guide(axes, np.concatenate(points), problem["reference"])
+    else:
+        axes.text(0.5, 0.5, "no error is known", color=QUIET, transform=axes.transAxes, ha="center", va="center")
     format_axes(axes)
     return picture(figure)
 
@@ -44,7 +46,8 @@ def draw(axes, integrator):
 def guide(axes, points, reference):
     """The slope that every unbiased estimator of finite variance follows, and the limits that leave room for it."""
     time, error = points[:, 0], points[:, 1]
-    span = np.array([time.min() / 1.3, time.max() * 1.3])
+    wider = max(1.3, math.sqrt(7 * time.min() / time.max()))  # room for two labels of time at least
+    span = np.array([time.min() / wider, time.max() * wider])
     below = 0.6 * np.min(error * np.sqrt(time)) / np.sqrt(span)
     bottom = max(min(error.min(), below[1]) / 1.5, error.max() / 1e9)
     axes.plot(span, below, color=QUIET, ls=":", lw=1.3)
@@ -52,7 +55,7 @@ def guide(axes, points, reference):
     own_error = math.sqrt(max(reference["relative_mse"] or 0, 0))
     if axes.get_ylim()[0] < own_error < axes.get_ylim()[1]:
         axes.axhline(own_error, color=QUIET, lw=0.8, ls=(0, (6, 3)))
-        axes.annotate("the reference’s own error", (0.02, own_error), (0, -3), color=QUIET, size=8, va="top",
+        axes.annotate("the reference’s own error", (0.02, own_error), (0, 3), color=QUIET, va="bottom",
                       xycoords=("axes fraction", "data"), textcoords="offset points")
 
 
@@ -67,10 +70,17 @@ def format_axes(axes):
         if axis is squared.yaxis:
             low, high = np.square(axes.get_ylim())
         span = math.log10(high / low)
-        axis.set_major_locator(LogLocator(subs=(1, 2, 5) if span < 1.6 else (1,), numticks=8))
+        axis.set_major_locator(LogLocator(subs=subdivisions(span, axis is axes.xaxis), numticks=8))
         axis.set_minor_locator(LogLocator(subs=range(2, 10), numticks=99 if span < 5 else 1))
         axis.set_major_formatter(FuncFormatter(write))
         axis.set_minor_formatter(NullFormatter())
+
+
+def subdivisions(decades, has_wide_labels):
+    """Which multiples of a power of ten are labelled, so that there are two labels at least, and room for each."""
+    if decades > 1.6:
+        return (1,)
+    return (1, 3) if has_wide_labels and decades > 1 else (1, 2, 5)
 
 
 def time_label(seconds, position=None):

@@ -16,7 +16,8 @@ import formats
 from load import load
 from pictures import REGION, Pictures, color_bar
 from plot import plot
-from stiff import heat_maps
+from stiff import LIMITS, heat_maps, size
+from summary import summary
 
 GROUPS = {  # the order and the titles of groups; a user's own come behind, under their names
     "scenes": "Scenes", "one-dimensional": "In one dimension", "irradiance": "Irradiance", "lights": "Lights",
@@ -30,36 +31,47 @@ def grouped(problems):
     return [group for group in groups if group[1]]
 
 
-def page(results, folder, results_name, image_width):
+def render(template, results, folder, results_name, image_names):
     overview = findings.find(results)
+    totals = findings.totals(overview)
     scale = results["error_scale"]
-    pictures = Pictures(folder, math.log10(scale["high"] / scale["low"]) if scale else 0, image_width)
+    pictures = Pictures(folder, math.log10(scale["high"] / scale["low"]) if scale else 0, image_names)
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent), autoescape=True, trim_blocks=True, lstrip_blocks=True,
-        undefined=jinja2.StrictUndefined)
+        loader=jinja2.FileSystemLoader(Path(__file__).parent), autoescape="html" in template, trim_blocks=True,
+        lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     filters = (formats.figure, formats.with_error, formats.duration, formats.percent, formats.sortable, formats.listed,
-               formats.count, formats.compact, figures.marker_points, findings.level)
+               formats.count, formats.compact, figures.marker_points, figures.variable, findings.level, size)
     environment.filters |= {function.__name__: function for function in filters}
     environment.tests["endless"] = math.isinf
-    known = {name: results[name] for name in ("machine", "build", "settings", "rules", "problems", "stiff", "stability")}
-    return environment.get_template("page.html.jinja").render(
-        **known, groups=grouped(results["problems"]), overview=overview, totals=findings.totals(overview),
-        combined=findings.COMBINED, pictures=pictures, plot=plot, region=REGION, results_name=results_name,
-        color_bar=color_bar(scale) if scale else None, heat_maps=heat_maps(results["stiff"]) if results["stiff"] else [])
+    known = {name: results[name] for name in (
+        "machine", "build", "arguments", "settings", "rules", "problems", "stiff", "stability")}
+    return environment.get_template(template).render(
+        **known, groups=grouped(results["problems"]), overview=overview, totals=totals,
+        summary=summary(overview, totals) if overview else None, combined=findings.COMBINED, levels=findings.LEVELS,
+        palette=figures.palette(), pictures=pictures, plot=plot, region=REGION, results_name=results_name,
+        color_bar=color_bar(scale) if scale else None, error_levels=LIMITS,
+        heat_maps=heat_maps(results["stiff"]) if results["stiff"] else [])
 
 
 def main():
     parser = argparse.ArgumentParser(description="Write the page of a convergence run.")
     parser.add_argument("results", type=Path, help="results.json; index.html is written beside it")
-    parser.add_argument("--image-width", type=int, help="compress the images, to this many pixels at the most")
+    parser.add_argument("--images", metavar="NAME,...", type=lambda names: names.split(","), default=(),
+                        help="show the images of these integrators alone: a smaller file")
+    parser.add_argument("--markdown", action="store_true", help="print the overview as a table, and write no page")
     arguments = parser.parse_args()
     path = arguments.results
     try:
         results = load(path)
     except ValueError as error:
         sys.exit(f"report: {path}: {error}")
+    content = render("overview.md.jinja" if arguments.markdown else "page.html.jinja", results, path.parent, path.name,
+                     arguments.images)
+    if arguments.markdown:
+        print(content, end="")
+        return
     out = path.with_name("index.html")
-    out.write_text(page(results, path.parent, path.name, arguments.image_width), encoding="utf-8")
+    out.write_text(content, encoding="utf-8")
     print(out)
 
 
