@@ -134,7 +134,6 @@ Pooled pool(std::span<const double> means, double answer, double answer_error) {
 }
 
 Verdict verdict(const Series& series) {
-    if (series.pooled.not_finite > 0) return Verdict::NotFinite;
     bool exact = true;
     for (std::size_t i = 0; i < series.samples.size(); ++i) {
         const double squared_error = series.over_seeds(i, &Measurement::relative_squared_error).mean();
