@@ -1,0 +1,79 @@
+// The guide's sets of lights: of one type, made as they are asked for; and of several kinds by std::variant.
+#include "catch.hpp"
+#include "z_test.hpp"
+#include <lumis/lumis.hpp>
+
+#include <cstddef>
+#include <variant>
+#include <vector>
+
+namespace {
+
+using glm::vec3;
+
+// Two halves of the square over the origin whose irradiance is Lambert's 1.7408.
+const std::vector<lumis::Triangle<float>> triangles{{{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}},
+                                                    {{-1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
+const std::vector<float> powers{1, 2};
+constexpr double irradiance_of_square = 1.740839502734;
+
+// A light of any of some shapes, as seen from a point.
+class AnyLight {
+  public:
+    using Scalar = float;
+    using Point = lumis::Direction<float>;
+    using Measure = lumis::measure::SolidAngle;
+    static constexpr int dimensions = 2;
+
+    template <class Shape>
+    AnyLight(const Shape& shape, const vec3& position)
+        : light_{lumis::AreaLight<Shape, lumis::BySolidAngle>{shape, position}} {}
+
+    lumis::LightSample<Point, float> sample(glm::vec2 u) const noexcept {
+        return std::visit([&](const auto& light) { return light.sample(u); }, light_);
+    }
+    float pdf(const Point& w) const noexcept {
+        return std::visit([&](const auto& light) { return light.pdf(w); }, light_);
+    }
+
+  private:
+    std::variant<lumis::AreaLight<lumis::Sphere<float>, lumis::BySolidAngle>,
+                 lumis::AreaLight<lumis::Parallelogram<float>, lumis::BySolidAngle>>
+        light_;
+};
+static_assert(lumis::Strategy<AnyLight>);
+
+// The irradiance that a set of lights of radiance 1 gives at the origin.
+template <class Set>
+void check_irradiance(const Set& set, double answer) {
+    const auto direct = multi_sample(lumis::BalanceHeuristic{}, lumis::take(1, set));
+    const auto cosine = [&](const vec3& w) { return w.z > 0 ? w.z : 0.0f; };
+    const auto law = z_test<float>([&](auto& uniforms) { return direct.estimate(cosine, uniforms); }, answer, 1);
+    INFO(law.message);
+    CHECK(law.passed);
+}
+
+TEST_CASE("a set of lights of one type") {
+    const vec3 position{0};
+    const lumis::AliasTable<float> by_power{powers};  // once
+    const auto lights = [&](std::size_t i) { return lumis::AreaLight{triangles[i], position}; };
+    const lumis::LightSet set{lights, by_power};  // at each point; allocates nothing
+    check_irradiance(set, irradiance_of_square);
+}
+
+TEST_CASE("a set of lights of several kinds") {
+    using Shape = std::variant<lumis::Sphere<float>, lumis::Parallelogram<float>>;
+    const std::vector<Shape> shapes{lumis::Parallelogram<float>{{-1, -1, 1}, {2, 0, 0}, {0, 2, 0}},
+                                    lumis::Sphere<float>{{2, 0, 0}, 1}};
+    constexpr double irradiance_of_sphere = 0.0905860737;  // half of it is below the horizon
+    const vec3 position{0};
+    const lumis::AliasTable<float> by_power{powers};
+
+    const auto lights = [&](std::size_t i) {
+        return std::visit([&](const auto& shape) { return AnyLight{shape, position}; }, shapes[i]);
+    };
+    const lumis::LightSet set{lights, by_power};
+    check_irradiance(set, irradiance_of_square + irradiance_of_sphere);
+}
+
+}  // namespace
