@@ -3,6 +3,7 @@
 #include <lumis/batch/batch.hpp>
 #include <lumis/lumis.hpp>
 
+#include <cstddef>
 #include <span>
 #include <vector>
 

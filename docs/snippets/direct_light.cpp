@@ -3,7 +3,9 @@
 #include "z_test.hpp"
 #include <lumis/lumis.hpp>
 
+#include <algorithm>
 #include <numbers>
+#include <random>
 
 namespace {
 

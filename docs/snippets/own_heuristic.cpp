@@ -3,8 +3,10 @@
 #include "z_test.hpp"
 #include <lumis/lumis.hpp>
 
+#include <array>
 #include <concepts>
 #include <cstddef>
+#include <numbers>
 #include <span>
 
 namespace {

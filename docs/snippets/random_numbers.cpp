@@ -2,6 +2,7 @@
 #include "catch.hpp"
 #include <lumis/lumis.hpp>
 
+#include <array>
 #include <random>
 
 namespace {
