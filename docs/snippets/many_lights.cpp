@@ -3,6 +3,7 @@
 #include "z_test.hpp"
 #include <lumis/lumis.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <variant>
 #include <vector>
@@ -35,13 +36,16 @@ class AnyLight {
     float pdf(const Point& w) const noexcept {
         return std::visit([&](const auto& light) { return light.pdf(w); }, light_);
     }
+    float distance_along(const Point& w) const noexcept {  // infinity where w misses the light
+        return std::visit([&](const auto& light) { return light.distance_along(w); }, light_);
+    }
 
   private:
     std::variant<lumis::AreaLight<lumis::Sphere<float>, lumis::BySolidAngle>,
                  lumis::AreaLight<lumis::Parallelogram<float>, lumis::BySolidAngle>>
         light_;
 };
-static_assert(lumis::Strategy<AnyLight>);
+static_assert(lumis::LightStrategy<AnyLight>);
 
 // The irradiance that a set of lights of radiance 1 gives at the origin.
 template <class Set>
@@ -49,6 +53,32 @@ void check_irradiance(const Set& set, double answer) {
     const auto direct = multi_sample(lumis::BalanceHeuristic{}, lumis::take(1, set));
     const auto cosine = [&](const vec3& w) { return w.z > 0 ? w.z : 0.0f; };
     const auto law = z_test<float>([&](auto& uniforms) { return direct.estimate(cosine, uniforms); }, answer, 1);
+    INFO(law.message);
+    CHECK(law.passed);
+}
+
+TEST_CASE("one shadow ray to the nearest light") {
+    // A square of radiance 2 hides part of one of radiance 1 behind it.
+    const vec3 position{0};
+    const lumis::Parallelogram<float> front{{-1, -1, 1}, {2, 0, 0}, {0, 2, 0}},
+        back{{-2, -2, 1.5f}, {4, 0, 0}, {0, 4, 0}};
+    const auto radiance_at = [](const vec3& point) { return point.z < 1.25f ? 2.0f : 1.0f; };
+    const auto occluded = [](const vec3& /*from*/, const vec3& /*direction*/, float /*distance*/) { return false; };
+    const auto brdf_cos = [](const vec3& wi) { return wi.z; };
+    const lumis::CosineHemisphere<float> bsdf;
+    const lumis::AreaLight near{front, position}, far{back, position};
+
+    const auto direct =
+        multi_sample(lumis::PowerHeuristic{}, lumis::take(1, bsdf), lumis::take(1, near), lumis::take(1, far));
+    const auto reflected = [&](const lumis::AnySample auto& s) {
+        if (std::isinf(s.distance)) return 0.0f;  // no light in this direction
+        if (occluded(position, s.value, 0.9999f * s.distance)) return 0.0f;
+        return brdf_cos(s.value) * radiance_at(position + s.distance * s.value);
+    };
+
+    constexpr double irradiance_of_both = 2 * irradiance_of_square + 0.418331512381;
+    const auto law =
+        z_test<float>([&](auto& uniforms) { return direct.estimate(reflected, uniforms); }, irradiance_of_both, 1);
     INFO(law.message);
     CHECK(law.passed);
 }

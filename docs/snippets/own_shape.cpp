@@ -52,7 +52,7 @@ class RingLight {
     glm::vec3 center_;  // relative to the reference point
     float inner_squared_, outer_squared_;
 };
-static_assert(lumis::Strategy<RingLight>);
+static_assert(lumis::LightStrategy<RingLight>);
 
 TEST_CASE("a shape of one's own keeps the laws") {
     const RingLight ring{{0.5f, 0, 1}, 0.5f, 1, glm::vec3{0}};
