@@ -55,8 +55,13 @@ TEST_CASE("a sky of the host's own convention") {
 
     const lumis::Frame z_up{vec3{1, 0, 0}, vec3{0, 0, 1}, vec3{0, -1, 0}};
     const auto light = in_frame(z_up, sky);
+    const lumis::Frame mirrored{vec3{1, 0, 0}, vec3{0, 0, 1}, vec3{0, 1, 0}};  // if they turn anticlockwise
 
-    for (const float u : {0.1f, 0.3f, 0.9f}) CHECK(is_in_texel(host_uv(light.sample({u, 1 - u}).value), 40, 5));
+    for (const float u : {0.1f, 0.3f, 0.9f}) {
+        CHECK(is_in_texel(host_uv(light.sample({u, 1 - u}).value), 40, 5));
+        const vec3 w = in_frame(mirrored, sky).sample({u, 1 - u}).value;
+        CHECK(is_in_texel(host_uv({w.x, -w.y, w.z}), 40, 5));
+    }
 }
 
 }  // namespace
