@@ -60,9 +60,20 @@ class Frame {
         const bool left_handed = detail::dot(glm::cross(normal, tangent), bitangent) < 0;
         Frame frame;
         frame.normal_ = detail::unit_or(normal, not_a_number);
-        frame.tangent_ = detail::unit_or(tangent - detail::dot(tangent, frame.normal_) * frame.normal_, not_a_number);
+        // Twice: what the first pass leaves of a tangent next to the normal is rounding as well.
+        const Direction<T> across = without_normal(frame.normal_, detail::unit_or(tangent, not_a_number));
+        if (!(detail::dot(across, across) >= detail::squared(T(1e-3)))) {
+            frame.tangent_ = frame.bitangent_ = frame.normal_ = Direction<T>{not_a_number};
+            return frame;
+        }
+        frame.tangent_ =
+            detail::unit_or(without_normal(frame.normal_, detail::unit_or(across, not_a_number)), not_a_number);
         frame.bitangent_ = glm::cross(frame.normal_, frame.tangent_) * (left_handed ? T(-1) : T(1));
         return frame;
+    }
+
+    static Direction<T> without_normal(const Direction<T>& normal, const Direction<T>& v) noexcept {
+        return v - detail::dot(v, normal) * normal;
     }
 
     Frame() = default;
