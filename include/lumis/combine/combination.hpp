@@ -28,23 +28,6 @@ template <class S, class U>
     return UniformsOf<S>(uniforms.template next<S::dimensions>());
 }
 
-// A sample of S whose point, density and distance have the types that S names, if they only convert to them.
-template <class S, class Drawn>
-[[nodiscard, gnu::always_inline]] constexpr decltype(auto) as_promised(const Drawn& sample) {
-    using Point = typename S::Point;
-    using Scalar = typename S::Scalar;
-    constexpr bool same_types = std::same_as<std::remove_cvref_t<decltype(sample.value)>, Point> &&
-                                std::same_as<std::remove_cvref_t<decltype(sample.pdf)>, Scalar>;
-    if constexpr (same_types) {
-        return (sample);
-    } else if constexpr (requires { sample.distance; }) {
-        return LightSample<Point, Scalar>{Point(sample.value), static_cast<Scalar>(sample.pdf),
-                                          static_cast<Scalar>(sample.distance)};
-    } else {
-        return Sample<Point, Scalar>{Point(sample.value), static_cast<Scalar>(sample.pdf)};
-    }
-}
-
 // The value over a divisor. A number is divided, which rounds once; other values need only scale.
 template <class Value, std::floating_point T>
 [[nodiscard]] constexpr auto quotient(const Value& value, T divisor) {
@@ -119,7 +102,8 @@ class Combination {
         if constexpr (Takes<F, Point, is_delta<I>> && detail::SamplesPoints<S>) {
             return contribution<I>(f, strategy<I>().sample_point(detail::next_for<S>(uniforms)));
         } else {
-            return contribution<I>(f, detail::as_promised<S>(strategy<I>().sample(detail::next_for<S>(uniforms))));
+            return contribution<I>(
+                f, detail::as_promised<Point, Scalar>(strategy<I>().sample(detail::next_for<S>(uniforms))));
         }
     }
 

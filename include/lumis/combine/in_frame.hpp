@@ -29,7 +29,7 @@ class InFrame {
 
     template <RealOf<Scalar> R = Scalar>
     [[nodiscard]] auto sample(glm::vec<dimensions, R> u) const noexcept {
-        auto drawn = local_.sample(u);
+        auto drawn = detail::as_promised<Direction<R>, R>(local_.sample(u));
         const Direction<R> w = frame_.to_world(drawn.value);
         const auto finite = all_finite(w);
         drawn.value.x = real::select(finite, w.x, 0);
@@ -41,7 +41,7 @@ class InFrame {
 
     template <RealOf<Scalar> R = Scalar>
     [[nodiscard]] R pdf(const Direction<R>& w) const noexcept {
-        return local_.pdf(frame_.to_local(w));
+        return static_cast<R>(local_.pdf(frame_.to_local(w)));
     }
 
     template <RealOf<Scalar> R = Scalar>

@@ -27,6 +27,22 @@ concept Strategy = FloatOrDouble<typename S::Scalar> && std::integral<std::remov
     { strategy.pdf(x) } -> std::convertible_to<typename S::Scalar>;
 };
 
+namespace detail {
+
+// A sample as it is, if its point and density are a Point and an R; else one that is made of what they convert to.
+template <class Point, class R, class Drawn>
+[[nodiscard, gnu::always_inline]] constexpr decltype(auto) as_promised(const Drawn& sample) {
+    if constexpr (std::same_as<decltype(sample.value), Point> && std::same_as<decltype(sample.pdf), R>) {
+        return (sample);
+    } else if constexpr (requires { sample.distance; }) {
+        return LightSample<Point, R>{Point(sample.value), static_cast<R>(sample.pdf), static_cast<R>(sample.distance)};
+    } else {
+        return Sample<Point, R>{Point(sample.value), static_cast<R>(sample.pdf)};
+    }
+}
+
+}  // namespace detail
+
 // invert(sample(u).value) == u up to rounding.
 template <class S>
 concept InvertibleStrategy = Strategy<S> && requires(const S strategy, typename S::Point x) {
