@@ -169,6 +169,13 @@ TEMPLATE_TEST_CASE("every direction above the horizon is drawn by some uniforms 
                    "[ggx_bounded_reflection]", float, double) {
     using T = TestType;
     const double epsilon = std::numeric_limits<T>::epsilon();
+    // Where wi is nearly opposite to wo, both ways amplify each rounding. Products fused into sums round elsewhere, and the
+    // worst direction is another one: 160 units there, as measured, 98 otherwise.
+#ifdef __FMA__
+    const double amplified = 200 * epsilon;
+#else
+    const double amplified = 100 * epsilon;
+#endif
     std::mt19937_64 engine{5};
     std::uniform_real_distribution<double> uniform{0, 1};
     for (const auto& alpha : roughnesses) {
@@ -189,7 +196,7 @@ TEMPLATE_TEST_CASE("every direction above the horizon is drawn by some uniforms 
             }
             INFO(label(mu, alpha) << ": " << highest - 1 << ", " << worst / epsilon << " epsilon");
             CHECK(highest <= 1 + 8 * epsilon / std::min(alpha.x, alpha.y));
-            CHECK(worst <= 100 * epsilon / std::pow(std::min({alpha.x, alpha.y, 1.0}), 2) / std::sqrt(mu));
+            CHECK(worst <= amplified / std::pow(std::min({alpha.x, alpha.y, 1.0}), 2) / std::sqrt(mu));
         }
     }
 }
