@@ -89,6 +89,29 @@ TEMPLATE_TEST_CASE("only dim weights get more than their share", "[cumulative_co
     }
 }
 
+// Counts are max(1, c weight), rounded, for the c at which they sum up: found here by bisection. Half of the entries are dim.
+TEST_CASE("counts beside many dim weights are in proportion to the weights", "[cumulative_counts]") {
+    std::mt19937_64 engine{5};
+    std::uniform_real_distribution<double> exponent{-3, 0};
+    std::vector<double> weights(4'000'000);
+    for (auto& weight : weights) weight = std::pow(10, exponent(engine));
+    const auto counts_of = [](double c, double weight) { return std::max(1.0, c * weight); };
+    double low = 0, high = 1e9;
+    for (int halving = 0; halving < 60; ++halving) {
+        const double c = (low + high) / 2;
+        double sum = 0;
+        for (const double weight : weights) sum += counts_of(c, weight);
+        (sum < lumis::total_counts<float> ? low : high) = c;
+    }
+    const auto starts = deal<float>(weights);
+    double worst = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        const double counts = starts[i + 1] - starts[i];
+        worst = std::max(worst, std::abs(counts - counts_of(low, weights[i])));
+    }
+    CHECK(worst <= 1.001);
+}
+
 TEST_CASE("as many weights as counts, whatever they are, get one each", "[cumulative_counts]") {
     std::vector<double> weights(1u << 24, 1.0);
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = static_cast<double>(1 + i % 1000);
