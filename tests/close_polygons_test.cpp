@@ -163,6 +163,50 @@ TEMPLATE_TEST_CASE("the solid angle of polygons that pass close by", "[close_pol
     CHECK(number >= 8000);
 }
 
+// Of exact coordinates at right angles double keeps nearly all digits.
+TEST_CASE("the solid angle of triangles that pass close by in double", "[close_polygons]") {
+    double worst = 0;
+    for (double height = 1; height >= 1e-6; height /= 4) {
+        const std::array<glm::dvec3, 3> vertices{{{-0.25, 0, height}, {1.75, 0, height}, {0.25, 0.03125, height}}};
+        std::array<std::size_t, 3> order{0, 1, 2};
+        do {
+            const glm::dvec3 &a = vertices[order[0]], &b = vertices[order[1]], &c = vertices[order[2]];
+            const auto exact = polygons::solid_angle(V(a), V(b), V(c));
+            const double error =
+                static_cast<double>(light_of(lumis::Triangle<double>{a, b, c}).solid_angle() / exact - 1);
+            worst = std::fmax(worst, std::abs(error));
+        } while (std::ranges::next_permutation(order).found);
+    }
+    INFO(worst);
+    CHECK(worst <= 1e-12);
+}
+
+// Where a rectangle says that it has the digits, the part of the solid angle on this side of a sample's x is u.x.
+TEMPLATE_TEST_CASE("the shares of rectangles that pass close by", "[close_polygons]", float, double) {
+    using T = TestType;
+    polygons::Random random{3};
+    double worst = 0;
+    int number = 0;
+    for (int i = 0; i < 50'000; ++i) {
+        const double height = std::pow(10, -3 + 3 * random()), width = std::pow(10, -1.5 + 1.5 * random());
+        const T x0 = static_cast<T>(2 * random() - 0.5), z = static_cast<T>(height), y1 = static_cast<T>(width);
+        const T y0 = static_cast<T>(std::copysign(std::pow(10, -2 + 2 * random()), random()));
+        const lumis::SphericalRectangle<T> seen{glm::vec<3, T>{x0, y0, z}, glm::vec<3, T>{T(2), T(0), T(0)},
+                                                glm::vec<3, T>{T(0), y1, T(0)}};
+        if (!seen.has_digits()) continue;
+        ++number;
+        const T u = static_cast<T>(0.5 + 0.5 * random());
+        const auto x = static_cast<long double>(seen.sample({u, T(0.5)}).x) * seen.unit();
+        const auto part = [&](long double to) {
+            return polygons::rectangle_solid_angle(x0, to, y0, static_cast<long double>(y0) + y1, z);
+        };
+        worst = std::fmax(worst, std::abs(static_cast<double>(part(x) / part(x0 + 2.0L)) - double{u}));
+    }
+    INFO(worst);
+    CHECK(worst <= 1e-3);
+    CHECK(number >= 15'000);
+}
+
 // The mean of the directions is their integral over the solid angle, but for the midpoint rule's own error: 0.0029 here in
 // double. Direction by direction float draws the same triangle, and so its mean is the same.
 TEMPLATE_TEST_CASE("what is drawn of polygons that pass close by is even and inside", "[close_polygons]", float,

@@ -59,7 +59,7 @@ class AreaLight<Shape, ByArea> {
         const R squared = glm::dot(point.position, point.position);
         const auto valid = is_squared_length(squared);
         const R distance = real::select(valid, real::sqrt(squared), 0);
-        const R inverse = real::quotient_where(valid, R(Scalar(1)), distance);
+        const R inverse = 1 / real::divisor_where(valid, distance);
         return {real::select(valid, point.position * inverse, Direction<R>{}),
                 density(distance, R(point.cos_times_distance * inverse)), distance};
     }

@@ -115,7 +115,8 @@ class AreaLight<Triangle<T>, BySolidAngle> {
   private:
     [[gnu::always_inline]] explicit AreaLight(const FlatShape<Triangle<T>>& shape) noexcept
         : view_{shape},
-          seen_{shape.corner, shape.corner + shape.edge_u, shape.corner + shape.edge_v, shape.edge_u, shape.edge_v},
+          seen_{shape.in_units.corner, shape.in_units.corner + shape.in_units.edge_u,
+                shape.in_units.corner + shape.in_units.edge_v, shape.in_units.edge_u, shape.in_units.edge_v},
           pdf_{detail::uniform_density(seen_.solid_angle())} {}
 
     FlatView<Triangle<T>> view_;
@@ -178,7 +179,7 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
 
     [[gnu::always_inline]] explicit AreaLight(const Shape& shape) noexcept
         : view_{shape},
-          rectangle_{shape.corner, shape.edge_u, shape.edge_v},
+          rectangle_{shape.in_units.corner, shape.in_units.edge_u, shape.in_units.edge_v},
           solid_angle_{rectangle_.solid_angle()},
           unit_{static_cast<T>(shape.unit) * rectangle_.unit()} {
         if (!(rectangle_.has_digits() && is_rectangle(shape))) {
@@ -191,10 +192,11 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     // Whether the edges are at right angles; up to the rounding of T, unless the reference point is so close by that such a
     // shear shows.
     [[nodiscard]] static bool is_rectangle(const Shape& shape) noexcept {
-        const auto dot = glm::dot(shape.edge_u, shape.edge_v);
+        const auto dot = glm::dot(shape.in_units.edge_u, shape.in_units.edge_v);
         if (dot == 0) return true;
-        const auto u = real::length(shape.edge_u), v = real::length(shape.edge_v);
-        const auto volume = glm::dot(shape.corner, detail::cross(shape.edge_u, shape.edge_v));
+        const auto u = real::length(shape.in_units.edge_u), v = real::length(shape.in_units.edge_v);
+        const auto volume =
+            glm::dot(shape.in_units.corner, detail::cross(shape.in_units.edge_u, shape.in_units.edge_v));
         return std::abs(dot) <= 4 * std::numeric_limits<T>::epsilon() * u * v &&
                32 * std::abs(volume) >= u * v * real::max(u, v);
     }
@@ -203,7 +205,8 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     class Halves {
       public:
         [[gnu::always_inline]] explicit Halves(const Shape& shape) noexcept
-            : Halves{shape.corner, shape.edge_u, shape.edge_v, shape.edge_u + shape.edge_v} {}
+            : Halves{shape.in_units.corner, shape.in_units.edge_u, shape.in_units.edge_v,
+                     shape.in_units.edge_u + shape.in_units.edge_v} {}
 
         // 0 if the reference point lies at a vertex or in the plane.
         [[nodiscard]] T solid_angle() const noexcept {

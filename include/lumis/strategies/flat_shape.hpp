@@ -55,9 +55,13 @@ struct FlatShape {
     using Vector = glm::vec<3, Wide>;
     static constexpr bool is_triangle = std::same_as<Shape, Triangle<Scalar>>;
 
-    // In a unit near the longest edge where T is double: squares of tiny or huge edges would leave its range. The unit is a
-    // power of two, which rounds nothing.
-    Vector corner, edge_u, edge_v;
+    struct Edges {
+        Vector corner, edge_u, edge_v;
+    };
+
+    // The scene's coordinates; and in a unit near the longest edge where Scalar is double, as squares of tiny or huge edges
+    // would leave its range. The unit is a power of two, which rounds nothing.
+    Edges in_scene, in_units;
     Wide unit{1};
 
     [[gnu::always_inline]] FlatShape(const Shape& shape,
@@ -73,14 +77,12 @@ struct FlatShape {
     }
 
   private:
-    [[gnu::always_inline]] FlatShape(const Vector& c, const Vector& u, const Vector& v) noexcept
-        : corner{c}, edge_u{u}, edge_v{v} {
+    [[gnu::always_inline]] FlatShape(const Vector& corner, const Vector& u, const Vector& v) noexcept
+        : in_scene{corner, u, v}, in_units{in_scene} {
         if constexpr (std::same_as<Wide, Scalar>) {
             unit = detail::power_of_two(real::max(detail::longest_component(u), detail::longest_component(v)));
-            const Wide inverse = real::divide(Wide(1), unit);
-            corner = c * inverse;
-            edge_u = u * inverse;
-            edge_v = v * inverse;
+            const Wide inverse = 1 / unit;
+            in_units = {corner * inverse, u * inverse, v * inverse};
         }
     }
 

@@ -22,10 +22,10 @@ class FlatView {
         : FlatView{FlatShape<Shape>{shape, reference_point}} {}
 
     [[gnu::always_inline]] explicit FlatView(const FlatShape<Shape>& shape) noexcept
-        : corner_{shape.corner * shape.unit}, edge_u_{shape.edge_u * shape.unit}, edge_v_{shape.edge_v * shape.unit} {
+        : corner_{shape.in_scene.corner}, edge_u_{shape.in_scene.edge_u}, edge_v_{shape.in_scene.edge_v} {
         using Wide = typename FlatShape<Shape>::Wide;
         constexpr T rounding = 4 * std::numeric_limits<T>::epsilon();
-        const auto &start = shape.corner, &u = shape.edge_u, &v = shape.edge_v;
+        const auto& [start, u, v] = shape.in_units;
         const auto normal = detail::cross(u, v);
         const Wide area = real::length(normal);  // of the parallelogram of the edges
         const Wide inverse = real::quotient_where(area > 0, Wide(1), area);
