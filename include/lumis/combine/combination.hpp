@@ -1,5 +1,6 @@
-// What the two estimators share: strategies with their factors, n_i in the multi-sample and c_i in the one-sample model,
-// the effective densities factor_i p_i(x), and the weights that a heuristic makes of them.
+// What both estimators share: the strategies with a factor each, the effective densities factor_i p_i(x), and the weights
+// that a heuristic makes of these. The factor is the count n_i in the multi-sample model and the probability c_i in the
+// one-sample model.
 #pragma once
 
 #include "lumis/combine/for_each_index.hpp"
@@ -89,8 +90,8 @@ class Combination {
     }
 
   protected:
-    // Each strategy is moved once, from the Take or Choose that holds it: some are large, and composing is done at every
-    // point to be lit.
+    // Moves each strategy once, out of the Take or Choose that holds it: some are large, and a renderer composes an
+    // estimator at every point that it lights.
     template <class... Techniques>
     constexpr Combination(const H& heuristic, std::array<Scalar, size> factors, Techniques&&... techniques)
         : heuristic_{heuristic}, factors_{factors}, strategies_{std::forward<Techniques>(techniques).strategy...} {}
@@ -107,7 +108,7 @@ class Combination {
         }
     }
 
-    // The same as the type that another technique's is of.
+    // The same, converted to Value, the type of technique 0's.
     template <class Value, std::size_t I, class F, class U>
     [[nodiscard]] Value draw_as(F& f, U& uniforms) const {
         static_assert(std::convertible_to<decltype(draw<I>(f, uniforms)), Value>,
@@ -124,6 +125,8 @@ class Combination {
     static constexpr bool is_delta = DeltaStrategy<Nth<I>>;
     static constexpr std::size_t number_of_smooth = detail::number_of_smooth<First, Rest...>;
 
+    // Evaluates f where its weight is positive. A delta strategy's sample, and that of the only strategy with a density, has
+    // weight 1.
     template <std::size_t I, class F, class Drawn>
     [[nodiscard, gnu::always_inline]] auto contribution(F& f, const Drawn& sample) const {
         constexpr bool only_point = Takes<F, Point, is_delta<I>>;
@@ -175,7 +178,7 @@ class Combination {
         }
     }
 
-    // The weight of technique I at x, whose own effective density own() the caller may know already.
+    // The weight of technique I at x. own() is technique I's effective density there: a caller that has drawn x knows it.
     template <std::size_t I, class Own>
     [[nodiscard]] Scalar weight_given(const Point& x, Own own) const noexcept {
         if constexpr (number_of_smooth == 1 && !is_delta<I>) {
