@@ -37,7 +37,9 @@ class SphericalRectangle {
         const Vector x = real::divide(edge_u, width), y = real::divide(edge_v, height), up = glm::cross(x, y);
         const Wide above = glm::dot(corner, up), z = -std::abs(above);
         if (!(z < 0)) return;
-        frame_ = {Direction<T>(x), Direction<T>(y), Direction<T>(above > 0 ? -up : up)};
+        const Direction<T> along_u(x), along_v(y), normal(above > 0 ? -up : up);
+        if (!detail::are_orthonormal(along_u, along_v, normal)) return;  // a skew parallelogram is no rectangle
+        frame_ = {along_u, along_v, normal};
         const Wide x0 = glm::dot(corner, x), y0 = glm::dot(corner, y), x1 = x0 + width, y1 = y0 + height;
         unit_ = detail::power_of_two(static_cast<T>(real::max(width, height)));
         near_ = Vector{x0, y0, z} * (1 / Wide{unit_});
