@@ -18,7 +18,7 @@ FOLDERS = {
     "strategies": ["core/"],
     "combine": ["core/", "strategies/"],
     "batch": ["core/", "strategies/", "combine/"],
-    "statistics": ["core/assert.hpp", "core/spannable.hpp"],
+    "statistics": ["core/"],
     "testing": ["core/", "strategies/", "combine/", "batch/", "statistics/"],
 }
 # Headers that are built upon a strategy, or upon a surface or shape that users include as well.

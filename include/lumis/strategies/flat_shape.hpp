@@ -80,7 +80,10 @@ struct FlatShape {
     [[gnu::always_inline]] FlatShape(const Vector& corner, const Vector& u, const Vector& v) noexcept
         : in_scene{corner, u, v}, in_units{in_scene} {
         if constexpr (std::same_as<Wide, Scalar>) {
-            unit = detail::power_of_two(real::max(detail::longest_component(u), detail::longest_component(v)));
+            // Not so small that the square of the corner would leave its range: then the shape subtends nothing.
+            const Wide least = detail::longest_component(corner) * Wide(0x1p-500);
+            const Wide longest = real::max(detail::longest_component(u), detail::longest_component(v));
+            unit = detail::power_of_two(real::max(longest, least));
             const Wide inverse = 1 / unit;
             in_units = {corner * inverse, u * inverse, v * inverse};
         }
