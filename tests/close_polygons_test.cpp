@@ -251,5 +251,6 @@ TEMPLATE_TEST_CASE("the way back from polygons that pass close by", "[close_poly
         worst = std::fmax(worst, std::abs(double{back.y} - double{u.y}));
     });
     INFO(worst);
-    CHECK(worst <= (std::is_same_v<T, float> ? 1e-3 : 1e-9));
+    // In double 1e-9, and where products are fused into sums 5e-9.
+    CHECK(worst <= (std::is_same_v<T, float> ? 1e-3 : 1e-8));
 }

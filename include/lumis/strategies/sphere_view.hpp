@@ -86,11 +86,13 @@ class SphereView {
         return inside_ || real::length(real::rounded(w - Direction<R>(axis_.normal()))) <= chord_;
     }
 
+    // Where the line passes the centre follows from the chord too: from the centre itself, it is rounded by as much as the
+    // sphere is far away.
     template <RealOf<T> R = T>
     [[nodiscard]] SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
-        const glm::vec<3, R> center{center_};
-        const R along = glm::dot(center, w);
-        const R across = real::length(real::rounded(center - along * w));
+        const Direction<R> chord = real::rounded(w - Direction<R>(axis_.normal()));
+        const R versine = glm::dot(chord, chord) / 2, sine = real::sqrt_or_zero(R(versine * (2 - versine)));
+        const R along = distance_ * (1 - versine), across = distance_ * sine;
         return hit_if(inside_ || (along > 0 && contains(w)), distance_along(along, across),
                       real::quotient_where(MaskOf<R>(R(radius_) > 0), half_chord_at(across), R(radius_)));
     }
