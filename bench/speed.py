@@ -159,7 +159,7 @@ def verdicts(results):
         rows = judged(variant, times)
         failed = [row for row in rows if not row[2] >= row[3]]
         all_met = all_met and not failed
-        # Of the many that are only to be no slower, the exceptions and the sum.
+        # Many kernels are only to be no slower: the exceptions and the sum stand for them.
         for kernel, compared, value, least in rows if variant.targets else failed:
             met = "met" if value >= least else "**not met**"
             lines.append(f"| {title} | `{kernel}` | {compared} | {value:.2f} | {least:g} | {met} |")

@@ -163,7 +163,7 @@ TEMPLATE_TEST_CASE("the solid angle of polygons that pass close by", "[close_pol
     CHECK(number >= 8000);
 }
 
-// Of exact coordinates at right angles double keeps nearly all digits.
+// Exact coordinates at right angles keep nearly all digits in double.
 TEST_CASE("the solid angle of triangles that pass close by in double", "[close_polygons]") {
     double worst = 0;
     for (double height = 1; height >= 1e-6; height /= 4) {

@@ -122,7 +122,7 @@ TEST_CASE("as many weights as counts, whatever they are, get one each", "[cumula
         return wrong;
     };
     CHECK(number_wrong(weights) == 0);
-    // Of equal ones rounding decides whether they are less than a count's worth: all of them, or none.
+    // Rounding decides whether equal ones are less than a count's worth: all of them, or none.
     for (const double weight : {0.1, 0.3, 0.7, 1e-300, 1e300}) {
         weights.assign(weights.size(), weight);
         CHECK(number_wrong(weights) == 0);

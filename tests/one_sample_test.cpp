@@ -74,7 +74,7 @@ TEMPLATE_TEST_CASE("effective densities carry the selection probability", "[one_
     for (int i = 0; i < 40'000; ++i) std::ignore = counted.estimate([](T x) { return x; }, uniforms);
     CHECK(first.sample + second.sample == 40'000);
     CHECK(std::abs(first.sample - 10'000) <= 450);  // five standard deviations
-    // Of each sample, the other technique's density alone is asked for.
+    // Each sample asks for the other technique's density alone.
     CHECK(first.pdf == second.sample);
     CHECK(second.pdf == first.sample);
 }

@@ -25,7 +25,7 @@ inline L solid_angle(const V& a, const V& b, const V& c) {
     return 2 * std::atan2(det, p * q * r + glm::dot(a, b) * r + glm::dot(b, c) * p + glm::dot(c, a) * q);
 }
 
-// Of the rectangle [x0, x1] x [y0, y1] in the plane at height z > 0: four quadrants' arc tangents.
+// The solid angle of the rectangle [x0, x1] x [y0, y1] in the plane at height z > 0: four quadrants' arc tangents.
 inline L rectangle_solid_angle(L x0, L x1, L y0, L y1, L z) {
     const auto corner = [z](L x, L y) { return std::atan2(x * y, z * std::sqrt(x * x + y * y + z * z)); };
     return corner(x1, y1) - corner(x0, y1) - corner(x1, y0) + corner(x0, y0);

@@ -131,7 +131,7 @@ TEMPLATE_TEST_CASE("GGX draws nothing for a vector too long or short to be a dir
 }
 
 TEST_CASE("a sliver as wide as its rounding is drawn by unit vectors or not at all", "") {
-    // Of length 0.985, with a density of 2e16.
+    // Its length was 0.985, its density 2e16.
     const double far = -88305875091456;
     const lumis::Parallelogram<double> sliver{{0.64773284271359444, 0.64313844684511423, 0.64313725475221872},
                                               {0.64313725475221872, -0.62745102401822805, far},

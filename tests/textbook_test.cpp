@@ -112,7 +112,7 @@ TEST_CASE("the textbook's lights are those of Lumis", "[textbook]") {
                lumis::AreaLight<lumis::Triangle<float>, BySolidAngle>{triangle, origin}, {2.0, 1e-3});
 }
 
-// Of two that are even over the same directions, all means agree.
+// Two that are even over the same directions agree in all means.
 TEST_CASE("the textbook's spherical triangle is even", "[textbook]") {
     const lumis::Triangle triangle{Vector{-1, -1, 2}, Vector{1, -1, 2}, Vector{0, 1, 3}};
     const textbook::TriangleBySolidAngle<float> book{triangle, Vector{}};

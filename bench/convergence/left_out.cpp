@@ -46,7 +46,7 @@ std::vector<std::string> missing(std::span<const std::string_view> all, const st
 
 constexpr int counted_width = 48, counted_height = 32, counted_samples = 2;
 
-// Of this program under callgrind, which counts what render_for_instructions marks.
+// The instructions that callgrind counts in this program, between the marks of render_for_instructions.
 std::optional<double> instructions_per_sample(const std::string& scene, const std::string& variant) {
     const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
     const std::string command = "valgrind --tool=callgrind --instr-atstart=no --callgrind-out-file=/dev/null '" +

@@ -104,7 +104,7 @@ struct Estimate {
     double value, standard_error;
 };
 
-// Of two independent means.
+// For two independent means.
 [[nodiscard]] Estimate ratio(const Moments& numerator, const Moments& denominator);
 
 // The exponent of relative error over effort: the least-squares slope of log against log, with its error by leaving out

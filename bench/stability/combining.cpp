@@ -191,7 +191,7 @@ Measured mixtures(Effort effort) {
                 measured.compare(sample.pdf, Quad{p} * Quad{specular.pdf(sample.value)} +
                                                  Quad{rest} * Quad{diffuse.pdf(sample.value)});
             }
-            // Of what the mixture draws, a white surface sends back all: the integral of cos / pi is 1.
+            // A white surface sends back all that the mixture draws: the integral of cos / pi is 1.
             const auto estimator = lumis::multi_sample(lumis::BalanceHeuristic{}, lumis::take(1, mixture));
             if (c < 0.005 || c > 0.995) continue;  // what is this rare, so few samples cannot tell
             const auto f = [](const auto& w) { return std::max(w.z, T(0)) * std::numbers::inv_pi_v<T>; };

@@ -28,7 +28,7 @@ Measured ggx_albedo(Effort) {
             const auto estimator = lumis::multi_sample(lumis::BalanceHeuristic{}, lumis::take(1, strategy));
             const auto f = [&](const auto& wi) { return strategy.ggx().brdf(wo, wi) * wi.z; };
             const auto moments = moments_of<T>(samples, [&](auto& source) { return estimator.estimate(f, source); });
-            // Of the rays about one in 1 / mu is not simply 1: too rare to tell at 1e-6, where all of it is allowed.
+            // About one ray in 1 / mu is not simply 1: too rare to tell at 1e-6, where all of it is allowed.
             measured.bias(moments, answer, rounding_of_mean<T> + (mu < 5e-4 ? 20 * mu : 0));
         };
         check(lumis::GgxReflection<T>{wo, one});

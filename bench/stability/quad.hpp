@@ -41,7 +41,7 @@ template <class T>
     return (1 / length(v)) * v;
 }
 
-// Of the triangle that three vectors span (Van Oosterom and Strackee 1983).
+// The solid angle of the triangle that three vectors span (Van Oosterom and Strackee 1983).
 [[nodiscard]] inline Quad solid_angle_of(const QuadVector& a, const QuadVector& b, const QuadVector& c) {
     const Quad la = length(a), lb = length(b), lc = length(c);
     const Quad sum = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;

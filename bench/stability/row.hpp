@@ -10,7 +10,7 @@
 
 namespace stability {
 
-// Of about 560 estimates: given new seeds, a correct library would exceed this once in 3000 runs.
+// The limit for about 560 estimates: given new seeds, a correct library would exceed it once in 3000 runs.
 inline constexpr double z_limit = 5;
 
 struct Row {

@@ -53,7 +53,7 @@ class GgxReflection {
         return (std::sqrt(1 + (x * x + y * y) / (w.z * w.z)) - 1) / 2;
     }
 
-    // Of wi: that of the visible normal, G1 D |wo.wm| / cos, over 4 |wo.wm|.
+    // The density of wi: that of the visible normal, G1 D |wo.wm| / cos, over 4 |wo.wm|.
     [[nodiscard]] T reflected_density(const Direction<T>& wm) const noexcept {
         return D(wm) / ((1 + lambda(wo_)) * 4 * wo_.z);
     }

@@ -15,7 +15,7 @@ namespace image_files {
     return tracer::read_image(std::as_bytes(std::span{bytes}), "a file");
 }
 
-// Of a FileError; empty if nothing was thrown.
+// The message of a FileError; empty if nothing was thrown.
 [[nodiscard]] std::string message_of(auto&& action) {
     try {
         action();
@@ -32,7 +32,7 @@ namespace image_files {
     return message.starts_with(start) ? message.substr(start.size()) : message;
 }
 
-// Of two images of one size, the largest difference between two values; NaN if a value is NaN, infinity if sizes differ.
+// The largest difference between two values of two images of one size; NaN if a value is NaN, infinity if sizes differ.
 [[nodiscard]] inline float largest_difference(const tracer::Image& a, const tracer::Image& b) {
     if (a.width != b.width || a.height != b.height) return std::numeric_limits<float>::infinity();
     float largest = 0;

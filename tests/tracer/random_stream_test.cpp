@@ -37,7 +37,7 @@ double error_of_pass(const Engines& engines, std::uint64_t seed, std::uint64_t p
     return sum / samples;
 }
 
-// Of the mean over 1, 4, 16, 64 and 256 passes: its variance over pixels, times passes and samples, over that of x + y.
+// The variance over pixels of the mean over 1, 4, 16, 64 and 256 passes, times passes and samples, over that of x + y.
 std::vector<double> variances(const Engines& engines, int samples) {
     constexpr double variance_of_one = 1 / 6.0;
     std::vector<double> sums(5);

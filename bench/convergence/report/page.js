@@ -14,7 +14,7 @@ for (const table of document.querySelectorAll(".table table")) {
   }));
 }
 
-// What of a table is hidden stands above it, for as long as it is.
+// A line above each table says what of it is hidden, for as long as it is.
 for (const holder of document.querySelectorAll(".holder")) {
   const place = holder.querySelector(".table"), hint = holder.querySelector(".hint"), table = place.querySelector("table");
   const headers = [...table.tHead.rows[0].cells], rows = [...table.tBodies[0].rows];

@@ -63,7 +63,7 @@ class RunningMoments {
         return count_ > 1 ? squares_ / static_cast<double>(count_ - 1) : std::numeric_limits<double>::quiet_NaN();
     }
 
-    // Of the mean; NaN for fewer than two numbers.
+    // The standard error of the mean; NaN for fewer than two numbers.
     [[nodiscard]] double standard_error() const noexcept { return std::sqrt(variance() / static_cast<double>(count_)); }
 
   private:

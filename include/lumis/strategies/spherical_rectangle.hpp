@@ -128,7 +128,7 @@ class SphericalRectangle {
         return real::sqrt(R(x * x + y * y));
     }
 
-    // Of the elevation of the point (x, y) over that at y = 0 on the line at x, which is d away.
+    // The sine of the elevation of the point (x, y) over that at y = 0 on the line at x, which is d away.
     template <Real R>
     static R sine(R y, R d) noexcept {
         return real::divide(y, length(d, y));

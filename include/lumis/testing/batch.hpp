@@ -23,7 +23,7 @@ concept BatchStrategy =
 
 // For all corner uniforms and many random ones: sample_n draws the directions that sample draws, to within `distance_allowed`
 // units in the last place of 1, with the density that pdf gives them, and pdf_n gives the same, both up to the rounding of the
-// direction. Of a batch of any size: the last lanes may be empty. number: the largest distance between directions, in
+// direction. A batch may have any size: the last lanes may be empty. number: the largest distance between directions, in
 // units in the last place.
 template <BatchStrategy S>
 [[nodiscard]] LawResult batch_agrees(const S& strategy, const AgreementOptions& options, double distance_allowed) {

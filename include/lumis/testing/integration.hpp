@@ -26,7 +26,7 @@ template <std::floating_point T>
 inline constexpr double integration_tolerance = std::same_as<T, float> ? 1e-3 : 1e-6;
 
 struct IntegrationOptions {
-    // Of something being drawn, in closed form; without it the law counts how often it is.
+    // The probability that something is drawn, in closed form; without it the law counts how often it is.
     std::optional<double> probability{};
     std::optional<double> tolerance{};  // the scalar's integration_tolerance if not given
     int samples = 100'000;              // for the count

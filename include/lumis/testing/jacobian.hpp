@@ -172,8 +172,8 @@ struct Estimated {
 };
 
 // Richardson's extrapolation of steps h and h / 2, for the h of least estimated error: what the extrapolation changes from
-// the step before, which overstates the truncation, and what rounding adds, which grows as the step shrinks. Of two
-// extrapolations that agree by chance the rounding still tells.
+// the step before, which overstates the truncation, and what rounding adds, which grows as the step shrinks. Where
+// two extrapolations agree by chance, the rounding still tells.
 template <MapsUniforms S>
 [[nodiscard]] Estimated stretch_at(const S& strategy, const UniformsOf<S>& u, const JacobianOptions& options,
                                    double tolerance) {

@@ -19,8 +19,8 @@ struct RoundTripOptions {
     // it and for its neighbours that far away must bracket u. At a pole, where no angle exists, all angles do; and so do
     // all u of a light too small for a direction to resolve.
     double rounding = 4;
-    // Of the uniforms, over their distance from the ends of [0, 1]: there maps have their poles and tails, where sample
-    // itself loses digits.
+    // The largest difference between uniforms, over their distance from the ends of [0, 1]: there maps have their poles and
+    // tails, where sample itself loses digits.
     double tolerance = 64;
     int samples = 2000;  // at random uniforms, after all combinations of corner values
     std::uint64_t seed = 1;

@@ -19,8 +19,8 @@ namespace lumis::testing {
 struct UnbiasedOptions {
     std::int64_t samples = 1'000'000;
     Significance significance{};
-    // Of the answer itself, or what rounding may add, absolute. Four units in the last place of the answer, in the type
-    // that estimate() returns, are allowed anyway.
+    // The error of the answer itself, or what rounding may add, absolute. Four units in the last place of the answer, in
+    // the type that estimate() returns, are allowed anyway.
     double answer_error = 0;
 };
 
