@@ -1,9 +1,9 @@
 // Many samples at once. A strategy's own kernel is run on lanes of numbers (see lanes.hpp); one that is written for single
 // numbers only, as a user's own may be, is called for each. Nothing is allocated, and no thread is started.
 //
-// Spans of a call have one size. They may not overlap, except that an output may be the very span of an input. What is written for an element depends on
-// nothing but that element, wherever in a batch it stands, and agrees with the single call to a few units in the last place:
-// compilers fuse multiplications and additions differently.
+// Spans of a call have one size. They may not overlap, except that an output may be the very span of an input. What is
+// written for an element depends on nothing but that element, wherever in a batch it stands, and agrees with the single call
+// to a few units in the last place: compilers fuse multiplications and additions differently.
 #pragma once
 
 #include "lumis/batch/lanes.hpp"

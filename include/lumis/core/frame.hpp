@@ -1,4 +1,4 @@
-// An orthonormal right-handed frame; its local +z is the normal.
+// An orthonormal frame; its local +z is the normal. It is right-handed unless it is made of three vectors that are not.
 #pragma once
 
 #include "lumis/core/arguments.hpp"

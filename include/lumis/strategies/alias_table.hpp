@@ -26,8 +26,8 @@ class AliasTable {
 
     // Throws std::invalid_argument for no weights, for one that is NaN, infinite or negative, and where the counts (2^24 in
     // float, 2^31 in double) are too few: for more weights than counts, and if those that are less than a count's worth
-    // would take more than a quarter of the draws beyond their share (see require_enough_counts, and FineAliasTable). All-zero weights are
-    // legal, see empty(). Keeps 8 bytes a weight.
+    // would take more than a quarter of the draws beyond their share (see require_enough_counts, and FineAliasTable).
+    // All-zero weights are legal, see empty(). Keeps 8 bytes a weight.
     explicit AliasTable(std::span<const T> weights) : table_{checked_size<T>(weights.size()), 1} {
         require_weights(weights);
         const Dealt dealt = table_.deal(0, std::vector<double>(weights.begin(), weights.end()));

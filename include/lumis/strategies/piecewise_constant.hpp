@@ -26,7 +26,8 @@ class PiecewiseConstant1D {
     static constexpr int dimensions = 1;
 
     // Throws std::invalid_argument for no weights, for one that is NaN, infinite or negative, and for more than there are
-    // counts (2^24 in float), or too many dim ones (see require_enough_counts). All-zero weights are legal, see empty(). Keeps 6 bytes a weight.
+    // counts (2^24 in float), or too many dim ones (see require_enough_counts). All-zero weights are legal, see empty().
+    // Keeps 6 bytes a weight.
     explicit PiecewiseConstant1D(std::span<const T> weights) : table_{checked_size<T>(weights.size()), 1} {
         require_weights(weights);
         const Dealt dealt = table_.deal(0, std::vector<double>(weights.begin(), weights.end()));

@@ -65,7 +65,8 @@ class SphericalRectangle {
         // Half the solid angles E of the triangles abc and acd have the tangents volume / sum (Van Oosterom and Strackee
         // 1983), where sum is 1 plus the cosines of the sides. For unit vertices
         //     sum of abc = (1 + a.b)(1 + b.c) + (b x a).(b x c),
-        // which cancels nowhere unless the diagonal ac spans nearly half a turn. Here it is times a b^2 c, that of acd times c d^2 a.
+        // which cancels nowhere unless the diagonal ac spans nearly half a turn. Here it is times a b^2 c, that of acd times
+        // c d^2 a.
         const Wide area = width * height, volume = -z * area, w2 = width * width, h2 = height * height;
         const Wide ab = sum_of_products(a * b, x0 * x1 + yy0, w2 * yy0),
                    cd = sum_of_products(c * d, x0 * x1 + yy1, w2 * yy1);
