@@ -187,7 +187,7 @@ Measured mixtures(Effort effort) {
                 const auto sample = mixture.sample(source.template next<3>());
                 measured.sample<T>(sample, mixture.pdf(sample.value));
                 if (!(sample.pdf > 0)) continue;
-                measured.expect(sample.pdf == mixture.pdf(sample.value));
+                measured.expect_same(sample.pdf, mixture.pdf(sample.value));
                 measured.compare(sample.pdf, Quad{p} * Quad{specular.pdf(sample.value)} +
                                                  Quad{rest} * Quad{diffuse.pdf(sample.value)});
             }

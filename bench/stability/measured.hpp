@@ -30,6 +30,13 @@ struct Effort {
 // Whether NaN and infinity are known to this build: not under -ffinite-math-only, which -ffast-math implies.
 inline constexpr bool knows_nan = !__FINITE_MATH_ONLY__;
 
+// Whether one expression always gives one result: not where the compiler may re-associate it in one place and not in another.
+#if defined(__ASSOCIATIVE_MATH__) || defined(__FAST_MATH__)
+inline constexpr bool keeps_order = false;
+#else
+inline constexpr bool keeps_order = true;
+#endif
+
 // Whether subnormal numbers count as 0 in this process, as programs linked with -ffast-math have it.
 template <std::floating_point T>
 [[nodiscard]] bool flushes_subnormals() {
@@ -85,6 +92,12 @@ class Measured {
     void expect(bool holds) {
         ++evaluations_;
         misbehaved_ += !holds;
+    }
+
+    // Two results of one expression: the same to the last bit, or up to a few roundings where it is re-associated.
+    template <std::floating_point T>
+    void expect_same(T a, T b) {
+        expect(keeps_order ? a == b : std::abs(a - b) <= 8 * std::numeric_limits<T>::epsilon() * b);
     }
 
     // The mean of estimates against the known answer, in standard errors; `rounding` is what single precision itself may

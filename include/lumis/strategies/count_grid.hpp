@@ -45,8 +45,8 @@ class CountGrid {
           rows_{height_, 1},
           cells_{width_, height_} {}
 
-    // weights_of(row, weights) sets the weights of a row's cells, finite and not negative. scale(row) is what a row's sum of
-    // weights is multiplied by. for_each_row runs the rows, see InOrder. Throws if counts are too few for the weights, see
+    // weights_of(row, weights) sets the weights of a row's cells, finite and not negative. scale(row), at most 4, is what a
+    // row's sum of weights is multiplied by. for_each_row runs the rows, see InOrder. Throws if counts are too few for the weights, see
     // require_enough_counts.
     void deal(auto weights_of, auto scale, const auto& for_each_row) {
         std::vector<Dealt> sums(height_);
@@ -62,11 +62,12 @@ class CountGrid {
             empty_ = empty_ && !(sum.value > 0);
             exponent = sum.exponent > exponent ? sum.exponent : exponent;
         }
-        // In units of the brightest row. A row that would vanish beside it keeps the least weight that there is.
+        // In units of the brightest row, or four of them: so a scale of up to 4 overflows nothing. A row that would vanish
+        // beside it keeps the least weight that there is.
         constexpr double least = std::numeric_limits<double>::denorm_min();
         std::vector<double> weights(height_);
         for (std::size_t row = 0; row < height_; ++row) {
-            if (sums[row].value > 0) weights[row] = real::max(scale(row) * sums[row].relative_to(exponent), least);
+            if (sums[row].value > 0) weights[row] = real::max(scale(row) * sums[row].relative_to(exponent + 2), least);
         }
         require_enough_counts<T>(rows_.deal(0, weights));
     }
