@@ -3,6 +3,7 @@
 #include "catch.hpp"
 #include <lumis/lumis.hpp>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -158,4 +159,15 @@ TEMPLATE_TEST_CASE("tables find a cell for any number", "", float, double) {
         const lumis::PiecewiseConstant1D table{std::vector<T>{1, 2}};
         (void)table.invert(x);
     }
+}
+
+// The row's sum of weights, times its extent of 2, was infinite, and the map was refused for too many dim texels.
+TEMPLATE_TEST_CASE("a map of one row is as bright as numbers go", "", float, double) {
+    using T = TestType;
+    using Limits = std::numeric_limits<T>;
+    const std::array texels{Limits::denorm_min(), Limits::min(), Limits::max()};
+    const lumis::EnvironmentMap<T> map{3, 1, texels};
+    const auto sample = map.sample({T(0.9), T(0.5)});
+    CHECK(sample.pdf > 0);
+    CHECK(sample.pdf == map.pdf(sample.value));
 }
