@@ -9,7 +9,6 @@
 #pragma once
 
 #include "lumis/core/elementary.hpp"
-#include "lumis/core/frame.hpp"
 #include "lumis/core/sample.hpp"
 #include "lumis/strategies/flat_shape.hpp"
 
@@ -37,9 +36,9 @@ class SphericalRectangle {
         const Vector x = real::divide(edge_u, width), y = real::divide(edge_v, height), up = glm::cross(x, y);
         const Wide above = glm::dot(corner, up), z = -std::abs(above);
         if (!(z < 0)) return;
-        const Direction<T> along_u(x), along_v(y), normal(above > 0 ? -up : up);
-        if (!detail::are_orthonormal(along_u, along_v, normal)) return;  // a skew parallelogram is no rectangle
-        frame_ = {along_u, along_v, normal};
+        x_ = x;
+        y_ = y;
+        z_ = above > 0 ? -up : up;
         const Wide x0 = glm::dot(corner, x), y0 = glm::dot(corner, y), x1 = x0 + width, y1 = y0 + height;
         unit_ = detail::power_of_two(static_cast<T>(real::max(width, height)));
         near_ = Vector{x0, y0, z} * (1 / Wide{unit_});
@@ -107,12 +106,12 @@ class SphericalRectangle {
         const R h0 = sine(R(near_.y), d), h1 = sine(R(far_.y), d);
         const R h = real::rounded(h0 + u.y * (h1 - h0));
         const R y = real::clamp(ratio(R(h * d), R(real::rounded(1 - h) * real::rounded(1 + h))), near_.y, far_.y);
-        return frame_.to_world(glm::vec<3, R>{x, y, near_.z});
+        return x * Direction<R>(x_) + y * Direction<R>(y_) + R(near_.z) * Direction<R>(z_);
     }
 
     // position: relative to the reference point, on the rectangle or towards it.
     [[nodiscard]] glm::vec<2, T> invert(const glm::vec<3, T>& position) const noexcept {
-        const glm::vec<3, T> local = frame_.to_local(position);
+        const glm::vec<3, T> local{glm::dot(position, x_), glm::dot(position, y_), glm::dot(position, z_)};
         const T to_plane = real::quotient_where(local.z < 0, near_.z, local.z), x = local.x * to_plane,
                 y = local.y * to_plane;
         const T d = length(x, near_.z);
@@ -156,7 +155,8 @@ class SphericalRectangle {
     }
 
     T unit_{1};  // near the longer edge: squares of tiny or huge edges would leave T's range
-    Frame<T> frame_{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    // The frame's axes; not a Frame, which would look once more whether they are orthonormal.
+    Direction<T> x_{1, 0, 0}, y_{0, 1, 0}, z_{0, 0, 1};
     glm::vec<3, T> near_{0, 0, -1};  // a, in the frame
     glm::vec<2, T> far_{0, 0};       // x1, y1
     T solid_angle_{0};
