@@ -28,7 +28,8 @@ class SphericalRectangle {
   public:
     using Vector = glm::vec<3, Wide>;
 
-    // A corner relative to the reference point, and two orthogonal edges. 0 sr without area and edge-on.
+    // A corner relative to the reference point, and two orthogonal edges; of others the result means nothing. 0 sr without
+    // area and edge-on.
     [[gnu::always_inline]] SphericalRectangle(const Vector& corner, const Vector& edge_u,
                                               const Vector& edge_v) noexcept {
         const Wide width = real::length(edge_u), height = real::length(edge_v);
@@ -155,7 +156,8 @@ class SphericalRectangle {
     }
 
     T unit_{1};  // near the longer edge: squares of tiny or huge edges would leave T's range
-    // The frame's axes; not a Frame, which would look once more whether they are orthonormal.
+    // The axes. Not a Frame, which asserts that they are orthogonal: a skew parallelogram, which is split instead, comes by
+    // here too.
     Direction<T> x_{1, 0, 0}, y_{0, 1, 0}, z_{0, 0, 1};
     glm::vec<3, T> near_{0, 0, -1};  // a, in the frame
     glm::vec<2, T> far_{0, 0};       // x1, y1
