@@ -3,7 +3,6 @@
 #include "table_weights.hpp"
 #include <lumis/strategies/alias_table.hpp>
 
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -201,11 +200,7 @@ TEMPLATE_TEST_CASE("an alias table of 1e7 weights", "[alias_table]", float, doub
     constexpr std::size_t size = 10'000'000;
     auto weights = random_weights<T>(size, 3);
     for (std::size_t i = 0; i < size; i += 2) weights[i] = T(0);
-    const auto start = std::chrono::steady_clock::now();
-    const lumis::AliasTable table{weights};
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    // A second or less; what would be wrong is time that grows with the square.
-    CHECK(seconds.count() <= 30);
+    const lumis::AliasTable table{weights};  // a second or less; time that grew with the square would not end
     double sum = 0;
     std::size_t never = 0, wrongly = 0;
     for (std::size_t i = 0; i < size; ++i) {

@@ -29,7 +29,9 @@ def browser(driver):
     if os.geteuid() == 0:
         options.add_argument("--no-sandbox")
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(service=Service(driver), options=options)
+    chromium = webdriver.Chrome(service=Service(driver), options=options)
+    chromium.set_script_timeout(120)  # seconds: a busy machine draws no frame for a while
+    return chromium
 
 
 def emulate(chromium, width, scheme, medium=""):
