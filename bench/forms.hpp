@@ -4,7 +4,7 @@
 #include "kernel.hpp"
 #include "subjects.hpp"
 #include <lumis/batch/batch.hpp>
-#include <lumis/combine/held.hpp>
+#include <lumis/core/detail/held.hpp>
 
 #include <benchmark/benchmark.h>
 

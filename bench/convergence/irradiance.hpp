@@ -3,9 +3,9 @@
 #pragma once
 
 #include "problem.hpp"
-#include <lumis/strategies/area_light.hpp>
-#include <lumis/strategies/area_light_by_solid_angle.hpp>
-#include <lumis/strategies/cosine_hemisphere.hpp>
+#include <lumis/directions/cosine_hemisphere.hpp>
+#include <lumis/lights/area_light.hpp>
+#include <lumis/lights/area_light_by_solid_angle.hpp>
 
 #include <glm/geometric.hpp>
 

@@ -2,7 +2,7 @@
 
 #include <lumis/core/frame.hpp>
 #include <lumis/core/spherical.hpp>
-#include <lumis/strategies/ggx.hpp>
+#include <lumis/microfacets/ggx.hpp>
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <glm/geometric.hpp>

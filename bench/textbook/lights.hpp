@@ -4,7 +4,7 @@
 #pragma once
 
 #include <lumis/core/sample.hpp>
-#include <lumis/strategies/shapes.hpp>
+#include <lumis/lights/shapes.hpp>
 
 #include <glm/geometric.hpp>
 

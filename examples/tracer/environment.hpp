@@ -4,7 +4,7 @@
 
 #include "image.hpp"
 #include <lumis/core/latlong.hpp>
-#include <lumis/strategies/environment_map.hpp>
+#include <lumis/lights/environment_map.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // What a ray meets: Embree holds the shapes, this keeps what Embree does not know, the surface that each shape wears.
 #pragma once
 
-#include <lumis/strategies/shapes.hpp>
+#include <lumis/lights/shapes.hpp>
 
 #include <glm/vec3.hpp>
 

@@ -5,10 +5,10 @@
 #include "z_test.hpp"
 #include <lumis/combine/in_frame.hpp>
 #include <lumis/combine/multi_sample.hpp>
-#include <lumis/strategies/cosine_hemisphere.hpp>
-#include <lumis/strategies/environment_map.hpp>
-#include <lumis/strategies/perfect_reflection.hpp>
-#include <lumis/strategies/uniform_hemisphere.hpp>
+#include <lumis/directions/cosine_hemisphere.hpp>
+#include <lumis/directions/uniform_hemisphere.hpp>
+#include <lumis/lights/environment_map.hpp>
+#include <lumis/microfacets/perfect_reflection.hpp>
 
 #include <cmath>
 #include <limits>

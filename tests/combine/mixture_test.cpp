@@ -5,8 +5,8 @@
 #include "z_test.hpp"
 #include <lumis/combine/mixture.hpp>
 #include <lumis/combine/multi_sample.hpp>
-#include <lumis/strategies/cosine_hemisphere.hpp>
-#include <lumis/strategies/uniform_hemisphere.hpp>
+#include <lumis/directions/cosine_hemisphere.hpp>
+#include <lumis/directions/uniform_hemisphere.hpp>
 
 #include <cmath>
 #include <cstdint>

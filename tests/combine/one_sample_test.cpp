@@ -4,9 +4,9 @@
 #include "one_dimensional.hpp"
 #include "z_test.hpp"
 #include <lumis/combine/one_sample.hpp>
-#include <lumis/strategies/cosine_hemisphere.hpp>
-#include <lumis/strategies/perfect_reflection.hpp>
-#include <lumis/strategies/uniform_hemisphere.hpp>
+#include <lumis/directions/cosine_hemisphere.hpp>
+#include <lumis/directions/uniform_hemisphere.hpp>
+#include <lumis/microfacets/perfect_reflection.hpp>
 
 #include <array>
 #include <cmath>

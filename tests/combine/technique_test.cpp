@@ -3,15 +3,15 @@
 #include "instrumented.hpp"
 #include "one_dimensional.hpp"
 #include <lumis/combine/in_frame.hpp>
-#include <lumis/combine/light_set.hpp>
 #include <lumis/combine/mixture.hpp>
 #include <lumis/combine/multi_sample.hpp>
 #include <lumis/combine/one_sample.hpp>
-#include <lumis/strategies/area_light.hpp>
-#include <lumis/strategies/cosine_hemisphere.hpp>
-#include <lumis/strategies/environment_map.hpp>
-#include <lumis/strategies/perfect_reflection.hpp>
-#include <lumis/strategies/uniform_hemisphere.hpp>
+#include <lumis/directions/cosine_hemisphere.hpp>
+#include <lumis/directions/uniform_hemisphere.hpp>
+#include <lumis/lights/area_light.hpp>
+#include <lumis/lights/environment_map.hpp>
+#include <lumis/lights/light_set.hpp>
+#include <lumis/microfacets/perfect_reflection.hpp>
 
 #include <array>
 #include <cmath>

@@ -1,11 +1,11 @@
 // What concepts call convertible is converted: points, densities and uniforms of other types than a strategy names.
 #include "catch.hpp"
 #include <lumis/combine/in_frame.hpp>
-#include <lumis/combine/light_set.hpp>
 #include <lumis/combine/mixture.hpp>
 #include <lumis/combine/multi_sample.hpp>
 #include <lumis/combine/one_sample.hpp>
-#include <lumis/strategies/cosine_hemisphere.hpp>
+#include <lumis/directions/cosine_hemisphere.hpp>
+#include <lumis/lights/light_set.hpp>
 
 #include <array>
 #include <cstddef>

@@ -1,12 +1,12 @@
 // Estimates of direct light, each made by the library and written out by hand as a textbook has it. Both use the same
 // strategies and the same random numbers, so that what differs is the estimator alone. Under callgrind the program dumps the
 // instructions of each; without it, it measures the ratio of their times.
-#include <lumis/combine/ggx_reflection.hpp>
 #include <lumis/combine/in_frame.hpp>
 #include <lumis/combine/multi_sample.hpp>
 #include <lumis/combine/one_sample.hpp>
-#include <lumis/strategies/area_light_by_solid_angle.hpp>
-#include <lumis/strategies/cosine_hemisphere.hpp>
+#include <lumis/directions/cosine_hemisphere.hpp>
+#include <lumis/lights/area_light_by_solid_angle.hpp>
+#include <lumis/microfacets/ggx_reflection.hpp>
 
 #include <valgrind/callgrind.h>
 

@@ -2,8 +2,8 @@
 
     includes.py <compiler> <include folder>
 
-Folders see each other one way, and a user who includes one strategy does not get another: what lumis.hpp names is included
-by users, what it does not name in strategies/ is a part that several share.
+Rooms see each other one way, and a user who includes one strategy does not get another: what a user may include stands in
+the room, what only serves it in the room's detail/.
 """
 import pathlib
 import re
@@ -12,21 +12,26 @@ import sys
 
 compiler, root = sys.argv[1], pathlib.Path(sys.argv[2])
 
-# What a folder's headers may reach besides their own folder.
-FOLDERS = {
+# What a room's headers may reach besides their own room.
+SCATTERING = ["core/", "tables/", "directions/", "microfacets/"]
+ROOMS = {
     "core": [],
-    "strategies": ["core/"],
-    "combine": ["core/", "strategies/"],
-    "batch": ["core/", "strategies/", "combine/"],
+    "tables": ["core/"],
+    "directions": ["core/"],
+    "microfacets": ["core/"],
+    "lights": SCATTERING,
+    "combine": [*SCATTERING, "lights/"],
+    "batch": [*SCATTERING, "lights/", "combine/"],
     "statistics": ["core/"],
-    "testing": ["core/", "strategies/", "combine/", "batch/", "statistics/"],
+    "testing": [*SCATTERING, "lights/", "combine/", "batch/", "statistics/"],
 }
+STRATEGIES = ("tables/", "directions/", "microfacets/", "lights/")
 # Headers that are built upon a strategy, or upon a surface or shape that users include as well.
 BUILT_UPON = [
-    (r"strategies/ggx_\w+", r"strategies/ggx"),
-    (r"combine/ggx_\w+", r"strategies/ggx(_vndf)?"),
-    (r"strategies/area_light_by_solid_angle", r"strategies/area_light"),
-    (r"combine/light_set", r"strategies/alias_table"),
+    (r"microfacets/(detail/)?ggx_\w+", r"microfacets/(ggx|ggx_vndf|reflected)"),
+    (r"lights/(detail/\w+|area_light\w*)", r"lights/shapes"),
+    (r"lights/area_light_by_solid_angle", r"lights/area_light"),
+    (r"lights/light_set", r"tables/alias_table"),
 ]
 
 
@@ -44,19 +49,19 @@ def name_of(header):
 
 headers = {name_of(path): reached(path) for path in sorted((root / "lumis").rglob("*.hpp"))}
 all_of_it = headers.pop("lumis.hpp")
-named = set(re.findall(r'#include "lumis/(.+)"', (root / "lumis/lumis.hpp").read_text()))
-wrong = []
+named = re.findall(r'#include "lumis/(.+)"', (root / "lumis/lumis.hpp").read_text())
+wrong = [f"lumis.hpp includes {name}: no user may" for name in named if "/detail/" in name]
 
 for name, included in headers.items():
-    folder = name.split("/")[0]
+    room = name.split("/")[0]
     for other in sorted(included):
-        if not other.startswith((folder + "/", *FOLDERS[folder])):
-            wrong.append(f"{name} includes {other}: {folder}/ does not see it")
-        if folder in ("strategies", "combine") and other in named and other.startswith("strategies/"):
+        if not other.startswith((room + "/", *ROOMS[room])):
+            wrong.append(f"{name} includes {other}: {room}/ does not see it")
+        if (room + "/").startswith((*STRATEGIES, "combine/")) and other.startswith(STRATEGIES) and "/detail/" not in other:
             pair = name.removesuffix(".hpp"), other.removesuffix(".hpp")
             if not any(re.fullmatch(a, pair[0]) and re.fullmatch(b, pair[1]) for a, b in BUILT_UPON):
                 wrong.append(f"{name} includes {other}: who wants the one gets the other")
-    by_name = folder in ("batch", "testing")
+    by_name = room in ("batch", "testing")
     if by_name and name in all_of_it:
         wrong.append(f"lumis.hpp includes {name}, which is included by name")
     if not by_name and name not in all_of_it and not any(name in headers[other] for other in headers):

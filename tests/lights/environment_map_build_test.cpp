@@ -2,8 +2,8 @@
 // in the memory that is promised.
 #include "catch.hpp"
 #include "table_weights.hpp"
-#include <lumis/strategies/environment_map.hpp>
-#include <lumis/strategies/piecewise_constant.hpp>
+#include <lumis/lights/environment_map.hpp>
+#include <lumis/tables/piecewise_constant.hpp>
 
 #include <algorithm>
 #include <atomic>

@@ -1,7 +1,7 @@
 // The widest maps: a texel's mass in float is the frequency drawn; and directions lead back to their uniforms.
 #include "catch.hpp"
 #include "irradiance.hpp"
-#include <lumis/strategies/environment_map.hpp>
+#include <lumis/lights/environment_map.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // Ways to break a strategy on purpose, for tests of the laws.
 #pragma once
 
-#include <lumis/strategies/cosine_hemisphere.hpp>
-#include <lumis/strategies/uniform_hemisphere.hpp>
+#include <lumis/directions/cosine_hemisphere.hpp>
+#include <lumis/directions/uniform_hemisphere.hpp>
 #include <lumis/testing/laws.hpp>
 
 #include <glm/vec3.hpp>

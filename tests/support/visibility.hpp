@@ -2,7 +2,7 @@
 // meet a shape. In double.
 #pragma once
 
-#include <lumis/strategies/shapes.hpp>
+#include <lumis/lights/shapes.hpp>
 
 #include <glm/geometric.hpp>
 

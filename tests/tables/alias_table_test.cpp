@@ -1,7 +1,7 @@
 // Alias tables: each index is drawn exactly as often as its probability says, by every uniform that there is.
 #include "catch.hpp"
 #include "table_weights.hpp"
-#include <lumis/strategies/alias_table.hpp>
+#include <lumis/tables/alias_table.hpp>
 
 #include <cmath>
 #include <cstddef>

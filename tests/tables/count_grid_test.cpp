@@ -1,7 +1,7 @@
 // Grids of counts: rows and cells by their weights, whatever their magnitude.
 #include "catch.hpp"
-#include <lumis/strategies/alias_rows.hpp>
-#include <lumis/strategies/count_grid.hpp>
+#include <lumis/tables/detail/alias_rows.hpp>
+#include <lumis/tables/detail/count_grid.hpp>
 
 #include <cstddef>
 #include <cstdint>

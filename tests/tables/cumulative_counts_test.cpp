@@ -1,6 +1,6 @@
 // Tables in fixed point: every entry with a weight is drawn, none without, and each as often as it says.
 #include "catch.hpp"
-#include <lumis/strategies/cumulative_counts.hpp>
+#include <lumis/tables/detail/cumulative_counts.hpp>
 
 #include <algorithm>
 #include <cmath>

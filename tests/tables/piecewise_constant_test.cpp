@@ -1,7 +1,7 @@
 // Piecewise constant densities: cells are drawn exactly as often as their density says, and evenly within.
 #include "catch.hpp"
 #include "table_weights.hpp"
-#include <lumis/strategies/piecewise_constant.hpp>
+#include <lumis/tables/piecewise_constant.hpp>
 
 #include <algorithm>
 #include <cmath>

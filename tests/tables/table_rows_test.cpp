@@ -1,8 +1,8 @@
 // Tables in rows, guided and alias: what is drawn, by every uniform there is, is what the counts say.
 #include "catch.hpp"
 #include "table_weights.hpp"
-#include <lumis/strategies/alias_rows.hpp>
-#include <lumis/strategies/guided_rows.hpp>
+#include <lumis/tables/detail/alias_rows.hpp>
+#include <lumis/tables/detail/guided_rows.hpp>
 
 #include <algorithm>
 #include <cmath>

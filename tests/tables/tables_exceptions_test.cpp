@@ -4,8 +4,8 @@
 #include "table_weights.hpp"
 #include <lumis/core/latlong.hpp>
 #include <lumis/statistics/running_moments.hpp>
-#include <lumis/strategies/alias_table.hpp>
-#include <lumis/strategies/piecewise_constant.hpp>
+#include <lumis/tables/alias_table.hpp>
+#include <lumis/tables/piecewise_constant.hpp>
 
 #include <limits>
 #include <vector>

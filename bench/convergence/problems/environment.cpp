@@ -3,7 +3,7 @@
 
 #include "problem.hpp"
 #include <lumis/combine/in_frame.hpp>
-#include <lumis/strategies/cosine_hemisphere.hpp>
+#include <lumis/directions/cosine_hemisphere.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // GGX under light from all around, at five roughnesses, and a near-mirror plate under a small light.
 #include "near_mirror.hpp"
-#include <lumis/combine/ggx_reflection.hpp>
-#include <lumis/strategies/area_light_by_solid_angle.hpp>
-#include <lumis/strategies/cosine_hemisphere.hpp>
+#include <lumis/directions/cosine_hemisphere.hpp>
+#include <lumis/lights/area_light_by_solid_angle.hpp>
+#include <lumis/microfacets/ggx_reflection.hpp>
 
 #include <array>
 #include <cmath>

@@ -7,10 +7,10 @@
 #pragma once
 
 #include "lumis/batch/lanes.hpp"
-#include "lumis/combine/for_each_index.hpp"
-#include "lumis/combine/held.hpp"
 #include "lumis/combine/heuristics.hpp"
 #include "lumis/core/assert.hpp"
+#include "lumis/core/detail/for_each_index.hpp"
+#include "lumis/core/detail/held.hpp"
 #include "lumis/core/strategy.hpp"
 
 #include <array>

@@ -3,14 +3,14 @@
 // one-sample model.
 #pragma once
 
-#include "lumis/combine/for_each_index.hpp"
 #include "lumis/combine/heuristics.hpp"
 #include "lumis/combine/integrand.hpp"
-#include "lumis/combine/nearest.hpp"
 #include "lumis/combine/technique.hpp"
+#include "lumis/core/detail/for_each_index.hpp"
 #include "lumis/core/lifetime.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/core/uniforms.hpp"
+#include "lumis/lights/detail/nearest.hpp"
 
 #include <array>
 #include <cstddef>

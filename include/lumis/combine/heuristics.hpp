@@ -6,8 +6,8 @@
 // Inf share evenly, NaN gives 0 and fails an assertion.
 #pragma once
 
-#include "lumis/combine/for_each_index.hpp"
 #include "lumis/core/assert.hpp"
+#include "lumis/core/detail/for_each_index.hpp"
 #include "lumis/core/real.hpp"
 
 #include <glm/vec3.hpp>

@@ -1,7 +1,7 @@
 // Carries a strategy over local directions to world space. The density is unchanged: a rotation preserves solid angle.
 #pragma once
 
-#include "lumis/combine/held.hpp"
+#include "lumis/core/detail/held.hpp"
 #include "lumis/core/frame.hpp"
 #include "lumis/core/lifetime.hpp"
 #include "lumis/core/strategy.hpp"

@@ -2,12 +2,12 @@
 // or a safe density mixed into a risky one (defensive sampling, Hesterberg 1995).
 #pragma once
 
-#include "lumis/combine/for_each_index.hpp"
-#include "lumis/combine/nearest.hpp"
 #include "lumis/combine/technique.hpp"
+#include "lumis/core/detail/for_each_index.hpp"
 #include "lumis/core/lifetime.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/strategy.hpp"
+#include "lumis/lights/detail/nearest.hpp"
 
 #include <array>
 #include <concepts>

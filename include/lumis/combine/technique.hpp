@@ -1,8 +1,8 @@
 // A technique is a strategy with its sample count (multi-sample model) or its selection probability (one-sample model).
 #pragma once
 
-#include "lumis/combine/held.hpp"
 #include "lumis/core/assert.hpp"
+#include "lumis/core/detail/held.hpp"
 #include "lumis/core/lifetime.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/strategy.hpp"

@@ -1,5 +1,5 @@
 // Sine and cosine, arc cosine and arc tangent without branches or tables, so that one definition serves a number and
-// lanes of numbers, and compilers inline it. The polynomials are minimax in relative error; tests/elementary/remez.py makes
+// lanes of numbers, and compilers inline it. The polynomials are minimax in relative error; tests/core/remez.py makes
 // them. The worst errors of the functions as a whole stand with each, in units of epsilon (2^-23, 2^-52), as elementary_test
 // measures them.
 #pragma once

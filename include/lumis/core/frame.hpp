@@ -1,8 +1,8 @@
 // An orthonormal frame; its local +z is the normal. It is right-handed unless it is made of three vectors that are not.
 #pragma once
 
-#include "lumis/core/arguments.hpp"
 #include "lumis/core/assert.hpp"
+#include "lumis/core/detail/arguments.hpp"
 #include "lumis/core/sample.hpp"
 
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // What a strategy draws: a point, and the density with which it was drawn.
 #pragma once
 
-#include "lumis/core/arguments.hpp"
 #include "lumis/core/assert.hpp"
+#include "lumis/core/detail/arguments.hpp"
 #include "lumis/core/real.hpp"
 
 #include <glm/vec2.hpp>

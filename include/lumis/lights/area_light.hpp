@@ -5,10 +5,10 @@
 
 #include "lumis/core/measure.hpp"
 #include "lumis/core/strategy.hpp"
-#include "lumis/strategies/disk_view.hpp"
-#include "lumis/strategies/flat_view.hpp"
-#include "lumis/strategies/shapes.hpp"
-#include "lumis/strategies/sphere_view.hpp"
+#include "lumis/lights/detail/disk_view.hpp"
+#include "lumis/lights/detail/flat_view.hpp"
+#include "lumis/lights/detail/sphere_view.hpp"
+#include "lumis/lights/shapes.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -26,7 +26,7 @@ template <class Shape, class Sampling = ByArea>
 class AreaLight {
     static_assert(!std::same_as<Sampling, BySolidAngle>,
                   "lumis::AreaLight draws Triangle, Parallelogram and Sphere by solid angle (include "
-                  "lumis/strategies/area_light_by_solid_angle.hpp), any other shape ByArea, a Disk for one");
+                  "lumis/lights/area_light_by_solid_angle.hpp), any other shape ByArea, a Disk for one");
     static_assert(std::same_as<Sampling, BySolidAngle>, "lumis::AreaLight draws ByArea or BySolidAngle");
 };
 

@@ -3,9 +3,9 @@
 // pdf_from_hit takes what AreaLight<Shape, ByArea>::pdf_from_hit does and needs none of it: any hit has that density.
 #pragma once
 
-#include "lumis/strategies/area_light.hpp"
-#include "lumis/strategies/spherical_rectangle.hpp"
-#include "lumis/strategies/spherical_triangle.hpp"
+#include "lumis/lights/area_light.hpp"
+#include "lumis/lights/detail/spherical_rectangle.hpp"
+#include "lumis/lights/detail/spherical_triangle.hpp"
 
 #include <concepts>
 #include <limits>

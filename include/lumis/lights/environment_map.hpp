@@ -6,14 +6,14 @@
 // occurs, not even at the poles; and P(texel) is a product of whole counts, so it is the frequency really drawn.
 #pragma once
 
+#include "lumis/core/detail/spannable.hpp"
 #include "lumis/core/latlong.hpp"
 #include "lumis/core/real.hpp"
-#include "lumis/core/spannable.hpp"
 #include "lumis/core/strategy.hpp"
-#include "lumis/strategies/alias_rows.hpp"
-#include "lumis/strategies/count_grid.hpp"
-#include "lumis/strategies/cumulative_counts.hpp"
-#include "lumis/strategies/guided_rows.hpp"
+#include "lumis/tables/detail/alias_rows.hpp"
+#include "lumis/tables/detail/count_grid.hpp"
+#include "lumis/tables/detail/cumulative_counts.hpp"
+#include "lumis/tables/detail/guided_rows.hpp"
 
 #include <array>
 #include <cmath>

@@ -5,12 +5,12 @@
 // weights is best made once as well, and passed as it is: nothing is then allocated where light is sampled.
 #pragma once
 
-#include "lumis/combine/held.hpp"
-#include "lumis/combine/nearest.hpp"
+#include "lumis/core/detail/held.hpp"
+#include "lumis/core/detail/spannable.hpp"
 #include "lumis/core/lifetime.hpp"
-#include "lumis/core/spannable.hpp"
 #include "lumis/core/strategy.hpp"
-#include "lumis/strategies/alias_table.hpp"
+#include "lumis/lights/detail/nearest.hpp"
+#include "lumis/tables/alias_table.hpp"
 
 #include <concepts>
 #include <cstddef>

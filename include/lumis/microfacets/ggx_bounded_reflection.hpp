@@ -3,8 +3,8 @@
 // Eto and Tokuyoshi 2023, "Bounded VNDF Sampling for Smith-GGX Reflections".
 #pragma once
 
-#include "lumis/combine/reflected.hpp"
-#include "lumis/strategies/ggx_cap.hpp"
+#include "lumis/microfacets/detail/ggx_cap.hpp"
+#include "lumis/microfacets/reflected.hpp"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 
 #include "lumis/core/spherical.hpp"
 #include "lumis/core/strategy.hpp"
-#include "lumis/strategies/ggx.hpp"
+#include "lumis/microfacets/ggx.hpp"
 
 #include <glm/geometric.hpp>
 

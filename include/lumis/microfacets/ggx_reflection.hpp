@@ -3,8 +3,8 @@
 // roughness, alpha^2 / (1 + alpha^2) at normal incidence; nothing is drawn then.
 #pragma once
 
-#include "lumis/combine/reflected.hpp"
-#include "lumis/strategies/ggx_vndf.hpp"
+#include "lumis/microfacets/ggx_vndf.hpp"
+#include "lumis/microfacets/reflected.hpp"
 
 namespace lumis {
 

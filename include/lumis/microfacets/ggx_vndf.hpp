@@ -2,7 +2,7 @@
 // Heitz 2018, "Sampling the GGX Distribution of Visible Normals"; drawn by spherical caps, Dupuy and Benyoub 2023.
 #pragma once
 
-#include "lumis/strategies/ggx_cap.hpp"
+#include "lumis/microfacets/detail/ggx_cap.hpp"
 
 namespace lumis {
 

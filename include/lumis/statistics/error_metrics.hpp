@@ -3,7 +3,7 @@
 #pragma once
 
 #include "lumis/core/assert.hpp"
-#include "lumis/core/spannable.hpp"
+#include "lumis/core/detail/spannable.hpp"
 
 #include <cmath>
 #include <cstddef>

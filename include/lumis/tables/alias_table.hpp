@@ -3,10 +3,10 @@
 // probabilities sum to 1.
 #pragma once
 
-#include "lumis/core/spannable.hpp"
+#include "lumis/core/detail/spannable.hpp"
 #include "lumis/core/strategy.hpp"
-#include "lumis/strategies/alias_rows.hpp"
-#include "lumis/strategies/cumulative_counts.hpp"
+#include "lumis/tables/detail/alias_rows.hpp"
+#include "lumis/tables/detail/cumulative_counts.hpp"
 
 #include <concepts>
 #include <cstddef>

@@ -2,11 +2,11 @@
 // Lebesgue measure. In fixed point (see cumulative_counts.hpp): the density is the frequency really drawn.
 #pragma once
 
-#include "lumis/core/spannable.hpp"
+#include "lumis/core/detail/spannable.hpp"
 #include "lumis/core/strategy.hpp"
-#include "lumis/strategies/count_grid.hpp"
-#include "lumis/strategies/cumulative_counts.hpp"
-#include "lumis/strategies/guided_rows.hpp"
+#include "lumis/tables/detail/count_grid.hpp"
+#include "lumis/tables/detail/cumulative_counts.hpp"
+#include "lumis/tables/detail/guided_rows.hpp"
 
 #include <concepts>
 #include <cstddef>

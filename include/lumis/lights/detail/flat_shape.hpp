@@ -1,10 +1,10 @@
 // A triangle or parallelogram relative to a reference point: a corner, and the two edges from it.
 #pragma once
 
-#include "lumis/core/arguments.hpp"
 #include "lumis/core/assert.hpp"
+#include "lumis/core/detail/arguments.hpp"
 #include "lumis/core/real.hpp"
-#include "lumis/strategies/shapes.hpp"
+#include "lumis/lights/shapes.hpp"
 
 #include <glm/geometric.hpp>
 

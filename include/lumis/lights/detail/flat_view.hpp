@@ -2,8 +2,8 @@
 #pragma once
 
 #include "lumis/core/real.hpp"
-#include "lumis/strategies/flat_shape.hpp"
-#include "lumis/strategies/surface.hpp"
+#include "lumis/lights/detail/flat_shape.hpp"
+#include "lumis/lights/detail/surface.hpp"
 
 #include <glm/geometric.hpp>
 

@@ -2,7 +2,7 @@
 // direction: a shadow ray that stops at the nearest light finds what is really seen there.
 #pragma once
 
-#include "lumis/combine/for_each_index.hpp"
+#include "lumis/core/detail/for_each_index.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/sample.hpp"
 #include "lumis/core/strategy.hpp"

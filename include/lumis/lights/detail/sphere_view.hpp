@@ -4,8 +4,8 @@
 
 #include "lumis/core/frame.hpp"
 #include "lumis/core/spherical.hpp"
-#include "lumis/strategies/shapes.hpp"
-#include "lumis/strategies/surface.hpp"
+#include "lumis/lights/detail/surface.hpp"
+#include "lumis/lights/shapes.hpp"
 
 #include <glm/geometric.hpp>
 

@@ -24,7 +24,7 @@
 #include "lumis/core/elementary.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/sample.hpp"
-#include "lumis/strategies/flat_shape.hpp"
+#include "lumis/lights/detail/flat_shape.hpp"
 
 #include <glm/geometric.hpp>
 

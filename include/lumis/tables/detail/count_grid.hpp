@@ -4,8 +4,8 @@
 #pragma once
 
 #include "lumis/core/real.hpp"
-#include "lumis/strategies/cumulative_counts.hpp"
-#include "lumis/strategies/guided_rows.hpp"
+#include "lumis/tables/detail/cumulative_counts.hpp"
+#include "lumis/tables/detail/guided_rows.hpp"
 
 #include <glm/vec2.hpp>
 

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "lumis/core/real.hpp"
-#include "lumis/strategies/cumulative_counts.hpp"
+#include "lumis/tables/detail/cumulative_counts.hpp"
 
 #include <bit>
 #include <cstddef>
