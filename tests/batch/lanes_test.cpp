@@ -66,8 +66,8 @@ TEMPLATE_TEST_CASE("each lane does as its number would alone", "[lanes]", lumis:
         same(real::sqrt(a), [](T x, T) { return std::sqrt(x); });
         same(real::abs(a), [](T x, T) { return std::abs(x); });
         same(real::copysign(a, b), [](T x, T y) { return std::copysign(x, y); });
-        same(real::min(a, b), [](T x, T y) { return std::min(x, y); });
-        same(real::max(a, b), [](T x, T y) { return std::max(x, y); });
+        same(real::lesser(a, b), [](T x, T y) { return std::min(x, y); });
+        same(real::greater(a, b), [](T x, T y) { return std::max(x, y); });
         same(real::clamp(a, T(-1), T(1)), [](T x, T) { return std::clamp(x, T(-1), T(1)); });
         same(real::select(a < b, a, b), [](T x, T y) { return x < y ? x : y; });
         same(real::select(a <= b, a, b), [](T x, T y) { return x <= y ? x : y; });

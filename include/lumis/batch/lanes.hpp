@@ -3,6 +3,7 @@
 // glm::vec<3, Lanes<T, N>> is N directions.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 
 #include <concepts>
@@ -23,7 +24,7 @@ namespace detail {
 
 template <class T, std::size_t N>
 struct VectorOf {
-    using type [[gnu::vector_size(N * sizeof(T))]] = T;
+    using type LUMIS_VECTOR(N * sizeof(T)) = T;
 };
 
 }  // namespace detail
@@ -35,19 +36,19 @@ class LaneMask {
     using Vector = typename detail::VectorOf<Bits, N>::type;
 
     LaneMask() = default;
-    [[gnu::always_inline]] LaneMask(bool everywhere) noexcept : v_{Vector{} - Bits{everywhere}} {}
-    [[gnu::always_inline]] explicit LaneMask(Vector v) noexcept : v_{v} {}
+    LUMIS_INLINE LaneMask(bool everywhere) noexcept : v_{Vector{} - Bits{everywhere}} {}
+    LUMIS_INLINE explicit LaneMask(Vector v) noexcept : v_{v} {}
 
-    [[gnu::always_inline]] friend LaneMask operator&&(LaneMask a, LaneMask b) noexcept { return LaneMask{a.v_ & b.v_}; }
-    [[gnu::always_inline]] friend LaneMask operator||(LaneMask a, LaneMask b) noexcept { return LaneMask{a.v_ | b.v_}; }
-    [[gnu::always_inline]] friend LaneMask operator!(LaneMask a) noexcept { return LaneMask{~a.v_}; }
+    LUMIS_INLINE friend LaneMask operator&&(LaneMask a, LaneMask b) noexcept { return LaneMask{a.v_ & b.v_}; }
+    LUMIS_INLINE friend LaneMask operator||(LaneMask a, LaneMask b) noexcept { return LaneMask{a.v_ | b.v_}; }
+    LUMIS_INLINE friend LaneMask operator!(LaneMask a) noexcept { return LaneMask{~a.v_}; }
 
-    [[nodiscard, gnu::always_inline]] bool all() const noexcept {
+    [[nodiscard]] LUMIS_INLINE bool all() const noexcept {
         Bits every = v_[0];
         for (std::size_t i = 1; i < N; ++i) every &= v_[i];
         return every != 0;
     }
-    [[nodiscard, gnu::always_inline]] Vector vector() const noexcept { return v_; }
+    [[nodiscard]] LUMIS_INLINE Vector vector() const noexcept { return v_; }
 
   private:
     Vector v_;
@@ -66,70 +67,66 @@ class Lanes {
 
     Lanes() = default;
     // x in every lane. (0 is taken off because it changes no x, -0 included.)
-    [[gnu::always_inline]] Lanes(T x) noexcept : v_{x - Vector{}} {}
-    [[gnu::always_inline]] explicit Lanes(Vector v) noexcept : v_{v} {}
+    LUMIS_INLINE Lanes(T x) noexcept : v_{x - Vector{}} {}
+    LUMIS_INLINE explicit Lanes(Vector v) noexcept : v_{v} {}
 
-    [[nodiscard, gnu::always_inline]] static Lanes load(const T* from) noexcept {
+    [[nodiscard]] LUMIS_INLINE static Lanes load(const T* from) noexcept {
         Lanes result;
         std::memcpy(&result.v_, from, sizeof(Vector));
         return result;
     }
     // f(0), f(1), ..., f(N - 1), each called with its index as a constant.
     template <class F>
-    [[nodiscard, gnu::always_inline]] static Lanes of_lanes(F f) noexcept {
+    [[nodiscard]] LUMIS_INLINE static Lanes of_lanes(F f) noexcept {
         const auto all = [&]<std::size_t... I>(std::index_sequence<I...>) {
             return Vector{f(std::integral_constant<std::size_t, I>{})...};
         };
         return Lanes{all(std::make_index_sequence<N>{})};
     }
 
-    [[gnu::always_inline]] void store(T* to) const noexcept { std::memcpy(to, &v_, sizeof(Vector)); }
+    LUMIS_INLINE void store(T* to) const noexcept { std::memcpy(to, &v_, sizeof(Vector)); }
 
-    [[nodiscard, gnu::always_inline]] Vector vector() const noexcept { return v_; }
-    [[nodiscard, gnu::always_inline]] T operator[](std::size_t i) const noexcept { return v_[i]; }
-    [[gnu::always_inline]] void set(std::size_t i, T x) noexcept { v_[i] = x; }
+    [[nodiscard]] LUMIS_INLINE Vector vector() const noexcept { return v_; }
+    [[nodiscard]] LUMIS_INLINE T operator[](std::size_t i) const noexcept { return v_[i]; }
+    LUMIS_INLINE void set(std::size_t i, T x) noexcept { v_[i] = x; }
 
-    [[gnu::always_inline]] friend Lanes operator+(Lanes a, Lanes b) noexcept { return Lanes{a.v_ + b.v_}; }
-    [[gnu::always_inline]] friend Lanes operator-(Lanes a, Lanes b) noexcept { return Lanes{a.v_ - b.v_}; }
-    [[gnu::always_inline]] friend Lanes operator*(Lanes a, Lanes b) noexcept { return Lanes{a.v_ * b.v_}; }
-    [[gnu::always_inline]] friend Lanes operator/(Lanes a, Lanes b) noexcept { return Lanes{a.v_ / b.v_}; }
-    [[gnu::always_inline]] friend Lanes operator-(Lanes a) noexcept { return Lanes{-a.v_}; }
-    [[gnu::always_inline]] Lanes& operator+=(Lanes b) noexcept { return *this = *this + b; }
-    [[gnu::always_inline]] Lanes& operator-=(Lanes b) noexcept { return *this = *this - b; }
-    [[gnu::always_inline]] Lanes& operator*=(Lanes b) noexcept { return *this = *this * b; }
-    [[gnu::always_inline]] Lanes& operator/=(Lanes b) noexcept { return *this = *this / b; }
+    LUMIS_INLINE friend Lanes operator+(Lanes a, Lanes b) noexcept { return Lanes{a.v_ + b.v_}; }
+    LUMIS_INLINE friend Lanes operator-(Lanes a, Lanes b) noexcept { return Lanes{a.v_ - b.v_}; }
+    LUMIS_INLINE friend Lanes operator*(Lanes a, Lanes b) noexcept { return Lanes{a.v_ * b.v_}; }
+    LUMIS_INLINE friend Lanes operator/(Lanes a, Lanes b) noexcept { return Lanes{a.v_ / b.v_}; }
+    LUMIS_INLINE friend Lanes operator-(Lanes a) noexcept { return Lanes{-a.v_}; }
+    LUMIS_INLINE Lanes& operator+=(Lanes b) noexcept { return *this = *this + b; }
+    LUMIS_INLINE Lanes& operator-=(Lanes b) noexcept { return *this = *this - b; }
+    LUMIS_INLINE Lanes& operator*=(Lanes b) noexcept { return *this = *this * b; }
+    LUMIS_INLINE Lanes& operator/=(Lanes b) noexcept { return *this = *this / b; }
 
-    [[gnu::always_inline]] friend Mask operator<(Lanes a, Lanes b) noexcept { return mask(a.v_ < b.v_); }
-    [[gnu::always_inline]] friend Mask operator<=(Lanes a, Lanes b) noexcept { return mask(a.v_ <= b.v_); }
-    [[gnu::always_inline]] friend Mask operator>(Lanes a, Lanes b) noexcept { return mask(a.v_ > b.v_); }
-    [[gnu::always_inline]] friend Mask operator>=(Lanes a, Lanes b) noexcept { return mask(a.v_ >= b.v_); }
-    [[gnu::always_inline]] friend Mask operator==(Lanes a, Lanes b) noexcept { return mask(a.v_ == b.v_); }
+    LUMIS_INLINE friend Mask operator<(Lanes a, Lanes b) noexcept { return mask(a.v_ < b.v_); }
+    LUMIS_INLINE friend Mask operator<=(Lanes a, Lanes b) noexcept { return mask(a.v_ <= b.v_); }
+    LUMIS_INLINE friend Mask operator>(Lanes a, Lanes b) noexcept { return mask(a.v_ > b.v_); }
+    LUMIS_INLINE friend Mask operator>=(Lanes a, Lanes b) noexcept { return mask(a.v_ >= b.v_); }
+    LUMIS_INLINE friend Mask operator==(Lanes a, Lanes b) noexcept { return mask(a.v_ == b.v_); }
 
-    [[gnu::always_inline]] friend Lanes sqrt(Lanes x) noexcept { return Lanes{square_roots(x.v_)}; }
-    [[gnu::always_inline]] friend Lanes abs(Lanes x) noexcept { return of(bits(x) & ~sign_bit()); }
-    [[gnu::always_inline]] friend Lanes copysign(Lanes magnitude, Lanes sign) noexcept {
+    LUMIS_INLINE friend Lanes sqrt(Lanes x) noexcept { return Lanes{square_roots(x.v_)}; }
+    LUMIS_INLINE friend Lanes abs(Lanes x) noexcept { return of(bits(x) & ~sign_bit()); }
+    LUMIS_INLINE friend Lanes copysign(Lanes magnitude, Lanes sign) noexcept {
         return of((bits(magnitude) & ~sign_bit()) | (bits(sign) & sign_bit()));
     }
-    [[nodiscard, gnu::always_inline]] static Lanes mul_add(Lanes a, Lanes b, Lanes c) noexcept {
+    [[nodiscard]] LUMIS_INLINE static Lanes mul_add(Lanes a, Lanes b, Lanes c) noexcept {
         return Lanes{a.v_ * b.v_ + c.v_};
     }
-    [[nodiscard, gnu::always_inline]] static Lanes select(Mask condition, Lanes a, Lanes b) noexcept {
+    [[nodiscard]] LUMIS_INLINE static Lanes select(Mask condition, Lanes a, Lanes b) noexcept {
         return Lanes{condition.vector() ? a.v_ : b.v_};
     }
 
   private:
-    [[gnu::always_inline]] static Mask mask(auto comparison) noexcept {
-        return Mask{reinterpret_cast<BitVector>(comparison)};
-    }
-    [[gnu::always_inline]] static BitVector bits(Lanes x) noexcept { return reinterpret_cast<BitVector>(x.v_); }
-    [[gnu::always_inline]] static Lanes of(BitVector x) noexcept { return Lanes{reinterpret_cast<Vector>(x)}; }
-    [[gnu::always_inline]] static BitVector sign_bit() noexcept {
-        return BitVector{} + std::numeric_limits<Bits>::min();
-    }
+    LUMIS_INLINE static Mask mask(auto comparison) noexcept { return Mask{reinterpret_cast<BitVector>(comparison)}; }
+    LUMIS_INLINE static BitVector bits(Lanes x) noexcept { return reinterpret_cast<BitVector>(x.v_); }
+    LUMIS_INLINE static Lanes of(BitVector x) noexcept { return Lanes{reinterpret_cast<Vector>(x)}; }
+    LUMIS_INLINE static BitVector sign_bit() noexcept { return BitVector{} + (std::numeric_limits<Bits>::min)(); }
 
     // By the processor's instructions. The compilers share no built-in function for roots of vectors, and neither makes one
     // instruction of a loop over std::sqrt, which may set errno.
-    [[gnu::always_inline]] static Vector square_roots(Vector x) noexcept {
+    LUMIS_INLINE static Vector square_roots(Vector x) noexcept {
 #ifdef __SSE2__
         if constexpr (std::same_as<T, float> && sizeof(Vector) == 16) return __builtin_ia32_sqrtps(x);
         if constexpr (std::same_as<T, double> && sizeof(Vector) == 16) return __builtin_ia32_sqrtpd(x);

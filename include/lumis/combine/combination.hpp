@@ -7,7 +7,7 @@
 #include "lumis/combine/integrand.hpp"
 #include "lumis/combine/technique.hpp"
 #include "lumis/core/detail/for_each_index.hpp"
-#include "lumis/core/lifetime.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/core/uniforms.hpp"
 #include "lumis/lights/detail/nearest.hpp"
@@ -25,7 +25,7 @@ namespace detail {
 
 // The uniforms that S spends on a sample.
 template <class S, class U>
-[[nodiscard, gnu::always_inline]] constexpr UniformsOf<S> next_for(U& uniforms) {
+[[nodiscard]] LUMIS_INLINE constexpr UniformsOf<S> next_for(U& uniforms) {
     return UniformsOf<S>(uniforms.template next<S::dimensions>());
 }
 
@@ -128,7 +128,7 @@ class Combination {
     // Evaluates f where its weight is positive. A delta strategy's sample, and that of the only strategy with a density, has
     // weight 1.
     template <std::size_t I, class F, class Drawn>
-    [[nodiscard, gnu::always_inline]] auto contribution(F& f, const Drawn& sample) const {
+    [[nodiscard]] LUMIS_INLINE auto contribution(F& f, const Drawn& sample) const {
         constexpr bool only_point = Takes<F, Point, is_delta<I>>;
         using Seen = std::remove_cvref_t<decltype(seen<I, only_point>(sample))>;
         if constexpr (!IntegrandOfSamples<F, Seen, Scalar, is_delta<I>>) {

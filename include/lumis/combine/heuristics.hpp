@@ -8,6 +8,7 @@
 
 #include "lumis/core/assert.hpp"
 #include "lumis/core/detail/for_each_index.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 
 #include <glm/vec3.hpp>
@@ -26,7 +27,7 @@ namespace detail {
 
 // Calls visit(density) for each. The loop is unrolled where the number of techniques is known at compile time.
 template <Real R, std::size_t N, class Visit>
-[[gnu::always_inline]] inline void for_each_density(std::span<const R, N> densities, Visit visit) noexcept {
+LUMIS_INLINE inline void for_each_density(std::span<const R, N> densities, Visit visit) noexcept {
     if constexpr (N == std::dynamic_extent) {
         for (const R density : densities) visit(density);
     } else {
@@ -37,7 +38,7 @@ template <Real R, std::size_t N, class Visit>
 // The densities as an array of their own, for functions that are not inlined: a span of them would force the caller to
 // keep its densities in memory instead of registers. Densities of an extent known only at run time stay where they are.
 template <std::floating_point T, std::size_t N>
-[[nodiscard, gnu::always_inline]] inline auto by_value(std::span<const T, N> densities) noexcept {
+[[nodiscard]] LUMIS_INLINE inline auto by_value(std::span<const T, N> densities) noexcept {
     if constexpr (N == std::dynamic_extent) {
         return densities;
     } else {
@@ -50,26 +51,26 @@ template <std::floating_point T, std::size_t N>
 template <Real R, std::size_t N>
 [[nodiscard]] R largest_of(std::span<const R, N> densities) noexcept {
     R largest = scalar_of<R>(0);
-    for_each_density(densities, [&](R density) { largest = real::max(largest, density); });
+    for_each_density(densities, [&](R density) { largest = real::greater(largest, density); });
     return largest;
 }
 
 // Sums above this count as overflowed. Comparisons with the largest number itself are left out by compilers that need not
 // reckon with infinity (-ffinite-math-only).
 template <std::floating_point T>
-inline constexpr T largest_sum = std::numeric_limits<T>::max() / 2;
+inline constexpr T largest_sum = (std::numeric_limits<T>::max)() / 2;
 
 // Beside a share of this, a subnormal one is below the sum's last place, even a million of them: a processor may flush
 // them to 0 (FTZ, DAZ), as in programs linked with -ffast-math.
 template <std::floating_point T>
 inline constexpr T least_share =
-    std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() / std::numeric_limits<T>::epsilon();
+    (std::numeric_limits<T>::min)() / std::numeric_limits<T>::epsilon() / std::numeric_limits<T>::epsilon();
 
 // The sum of term(density). Sums of more than 8 terms are compensated by Sum2 of Ogita, Rump and Oishi 2005, "Accurate Sum
 // and Dot Product", algorithm 4.1: what each addition rounds off is added up separately. Unlike in Kahan's sum, no addition
 // waits for what the one before it rounded off. Stops at the first partial sum that has overflowed, and returns that.
 template <Real R, std::size_t N, class Term>
-[[nodiscard, gnu::always_inline]] inline R sum_of(std::span<const R, N> densities, Term term) noexcept {
+[[nodiscard]] LUMIS_INLINE inline R sum_of(std::span<const R, N> densities, Term term) noexcept {
     R sum = -scalar_of<R>(0);  // adding to -0 changes no number, so compilers drop the addition; adding to 0 changes -0
     if (N != std::dynamic_extent || densities.size() <= 8) {
         for_each_density(densities, [&](R density) { sum += term(density); });
@@ -100,7 +101,7 @@ template <std::floating_point T>
 // top of this file. share(p, scale) is the share of a density p after scaling; the scale is a power of two that brings the
 // largest density near 1, so that neither squares nor sums overflow.
 template <std::floating_point T, class Densities, class Share>
-[[nodiscard, gnu::noinline, gnu::cold]] T weight_at_scale(std::size_t own, Densities densities, Share share) noexcept {
+[[nodiscard]] LUMIS_COLD T weight_at_scale(std::size_t own, Densities densities, Share share) noexcept {
     int infinite = 0;
     for (const T density : densities) {
         LUMIS_ASSERT(!std::isnan(density));
@@ -118,7 +119,7 @@ template <std::floating_point T, class Densities, class Share>
 
 // The weights of lanes by the heuristic for numbers, one lane after the other.
 template <Real R, std::size_t N, class H>
-[[nodiscard, gnu::noinline]] R weight_lane_by_lane(const H& heuristic, std::size_t own,
+[[nodiscard]] LUMIS_NOINLINE R weight_lane_by_lane(const H& heuristic, std::size_t own,
                                                    std::span<const R, N> densities) noexcept {
     using T = scalar_of<R>;
     R weights;
@@ -134,8 +135,8 @@ template <Real R, std::size_t N, class H>
 // so small that others, which were flushed to 0, may be missing in the sum; a sum that has overflowed or holds an Inf or a
 // NaN. All others take the short way.
 template <Real R, std::size_t N, class H, class Share>
-[[nodiscard, gnu::always_inline]] inline R weight_by_shares(const H& heuristic, std::size_t own,
-                                                            std::span<const R, N> densities, Share share) noexcept {
+[[nodiscard]] LUMIS_INLINE inline R weight_by_shares(const H& heuristic, std::size_t own,
+                                                     std::span<const R, N> densities, Share share) noexcept {
     using T = scalar_of<R>;
     const R sum = sum_of(densities, [&](R density) { return share(density, T(1)); });
     const R own_share = share(densities[own], T(1));
@@ -151,8 +152,8 @@ template <Real R, std::size_t N, class H, class Share>
 // The power heuristic for any exponent, 1 / sum (p_i / p_own)^exponent. Powers of the densities themselves leave the range
 // of T soon; powers of their ratios leave it only where the weight does.
 template <std::floating_point T, class Densities>
-[[nodiscard, gnu::noinline]] T weight_by_power(std::size_t own, Densities densities, T exponent) noexcept {
-    if (densities[own] > 0 && densities[own] <= std::numeric_limits<T>::max()) {
+[[nodiscard]] LUMIS_NOINLINE T weight_by_power(std::size_t own, Densities densities, T exponent) noexcept {
+    if (densities[own] > 0 && densities[own] <= (std::numeric_limits<T>::max)()) {
         // Scaled, so that 1 / p_own, which -freciprocal-math may form, is a normal number.
         const T scale = scale_to_one(densities[own]), p_own = real::rounded(scale * densities[own]);
         T sum = 1;
@@ -168,7 +169,7 @@ template <std::floating_point T, class Densities>
 // 1 for a positive finite density. 0 and Inf stay as they are: the policy decides on Inf.
 template <Real R>
 [[nodiscard]] R one_if_positive(R p) noexcept {
-    return real::select(p > 0 && p <= std::numeric_limits<R>::max(), R(scalar_of<R>(1)), p);
+    return real::select(p > 0 && p <= (std::numeric_limits<R>::max)(), R(scalar_of<R>(1)), p);
 }
 
 }  // namespace detail
@@ -248,7 +249,7 @@ struct CutoffHeuristic {
         using T = scalar_of<R>;
         LUMIS_ASSERT(alpha >= 0 && alpha <= 1);
         // Above 1 no technique would have a weight, not even the only one that drew a point.
-        const R threshold = static_cast<T>(real::min(alpha, 1.0)) * detail::largest_of(densities);
+        const R threshold = static_cast<T>(real::lesser(alpha, 1.0)) * detail::largest_of(densities);
         return detail::weight_by_shares(*this, own, densities,
                                         [=](R p, T scale) { return real::select(p < threshold, R(T(0)), p * scale); });
     }
@@ -281,8 +282,8 @@ namespace detail {
 
 // Calls a heuristic with the number of densities known at compile time, if it accepts such a span.
 template <class H, Real R, std::size_t N>
-[[nodiscard, gnu::always_inline]] inline R weigh(const H& heuristic, std::size_t own,
-                                                 std::span<const R, N> densities) noexcept {
+[[nodiscard]] LUMIS_INLINE inline R weigh(const H& heuristic, std::size_t own,
+                                          std::span<const R, N> densities) noexcept {
     if constexpr (std::invocable<const H&, std::size_t, std::span<const R, N>>) {
         return static_cast<R>(heuristic(own, densities));
     } else {

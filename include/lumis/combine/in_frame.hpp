@@ -3,7 +3,7 @@
 
 #include "lumis/core/detail/held.hpp"
 #include "lumis/core/frame.hpp"
-#include "lumis/core/lifetime.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 
 #include <utility>

@@ -4,7 +4,7 @@
 
 #include "lumis/combine/technique.hpp"
 #include "lumis/core/detail/for_each_index.hpp"
-#include "lumis/core/lifetime.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/lights/detail/nearest.hpp"

@@ -3,7 +3,7 @@
 
 #include "lumis/core/assert.hpp"
 #include "lumis/core/detail/held.hpp"
-#include "lumis/core/lifetime.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/strategy.hpp"
 
@@ -96,7 +96,7 @@ template <std::floating_point T, std::size_t N>
         LUMIS_ASSERT(probability >= 0);
         probability = probability >= 0 ? probability : T(0);
         LUMIS_ASSERT(sum + probability <= one);
-        if (!(sum + probability <= one)) probability = real::max(1 - sum, T(0));
+        if (!(sum + probability <= one)) probability = real::greater(1 - sum, T(0));
         sum += probability;
     }
     return probabilities;

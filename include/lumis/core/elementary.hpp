@@ -4,6 +4,7 @@
 // measures them.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 
 #include <glm/vec2.hpp>
@@ -21,7 +22,7 @@ namespace detail {
 
 // c[0] + c[1] x + c[2] x^2 + ... by Horner's rule.
 template <Real R, std::size_t N>
-[[nodiscard, gnu::always_inline]] constexpr R polynomial(R x, const std::array<scalar_of<R>, N>& c) noexcept {
+[[nodiscard]] LUMIS_INLINE constexpr R polynomial(R x, const std::array<scalar_of<R>, N>& c) noexcept {
     R sum = c[N - 1];
     for (std::size_t i = N - 1; i > 0; --i) sum = real::mul_add(sum, x, c[i - 1]);
     return sum;
@@ -76,7 +77,7 @@ struct Minimax<double> {
 // (cos, sin) of 2 pi turn, for a turn in [-1/4, 1/4]: the right half of the unit circle. Both keep their relative
 // accuracy where they are small: within 1.75 epsilon.
 template <Real R>
-[[nodiscard, gnu::always_inline]] inline glm::vec<2, R> half_circle(R turn) noexcept {
+[[nodiscard]] LUMIS_INLINE inline glm::vec<2, R> half_circle(R turn) noexcept {
     using P = detail::Minimax<scalar_of<R>>;
     turn = real::rounded(turn);
     const R square = turn * turn;
@@ -88,7 +89,7 @@ template <Real R>
 // (cos, sin) of 2 pi turn, for a turn in [0, 1], within 1.75 epsilon of 1. No multiple of pi is rounded on the way: 2 pi
 // turn alone would cost float up to four units in the last place.
 template <Real R>
-[[nodiscard, gnu::always_inline]] inline glm::vec<2, R> unit_circle(R turn) noexcept {
+[[nodiscard]] LUMIS_INLINE inline glm::vec<2, R> unit_circle(R turn) noexcept {
     // Folded at half a turn, where the sine changes its sign, and shifted by a quarter, which turns sine into cosine. Both
     // differences are exact for turns that are points of the uniforms' lattice.
     const R to_half = real::rounded(scalar_of<R>(0.5) - real::rounded(turn));
@@ -98,26 +99,26 @@ template <Real R>
 
 // The fraction of a turn, in [-1/2, 1/2], at which (x, y) lies, within 2.25 epsilon, relative. (0, 0) gives 0, a NaN NaN.
 template <Real R>
-[[nodiscard, gnu::always_inline]] inline R signed_turn_of(R x, std::type_identity_t<R> y) noexcept {
+[[nodiscard]] LUMIS_INLINE inline R signed_turn_of(R x, std::type_identity_t<R> y) noexcept {
     using T = scalar_of<R>;
-    // 1. Fold into the first octant, where 0 <= small <= large. No smaller large than min(): then (0, 0) is 0 / min().
+    // 1. Fold into the first octant, where 0 <= lesser <= greater. No smaller one than the least normal number: then (0, 0) is 0 over it.
     // The two comparisons differ on purpose: of the same one twice, compilers make a branch. min and max may drop a NaN in
     // ax; 0 * ax keeps it.
     const R ax = real::abs(real::rounded(x)), ay = real::abs(real::rounded(y));
-    const R small = real::min(ay, ax);
-    const R large = real::max(real::max(ay, ax), std::numeric_limits<T>::min()) + real::rounded(0 * ax);
+    const R lesser = real::lesser(ay, ax);
+    const R greater = real::greater(real::greater(ay, ax), (std::numeric_limits<T>::min)()) + real::rounded(0 * ax);
 
-    // 2. The arc tangent of small / large, in turns: from 0 to 1/8.
+    // 2. The arc tangent of lesser / greater, in turns: from 0 to 1/8.
     R octant;
     if constexpr (std::same_as<T, float>) {
-        const R t = real::divide(small, large);
+        const R t = real::divide(lesser, greater);
         octant = t * detail::polynomial(R(t * t), detail::Minimax<T>::arc_tangent);
     } else {
-        // Beyond tan(pi / 8), counted back from 1/8, by the arc tangent of (small - large) / (small + large): the argument
+        // Beyond tan(pi / 8), counted back from 1/8, by the arc tangent of (lesser - greater) / (lesser + greater): the argument
         // stays below tan(pi / 8), which takes half of the terms.
-        const auto beyond = small > T(0.41421356237309505) * large;
-        const R t = real::divide(real::select(beyond, real::rounded(small - large), small),
-                                 real::select(beyond, real::rounded(small + large), large));
+        const auto beyond = lesser > T(0.41421356237309505) * greater;
+        const R t = real::divide(real::select(beyond, real::rounded(lesser - greater), lesser),
+                                 real::select(beyond, real::rounded(lesser + greater), greater));
         octant = real::mul_add(t, detail::polynomial(R(t * t), detail::Minimax<T>::arc_tangent),
                                real::select(beyond, R(T(0.125)), 0));
     }
@@ -134,7 +135,7 @@ template <Real R>
 
 // The fraction of a turn, in [0, 1), at which (x, y) lies: the inverse of unit_circle. (0, 0) gives 0.
 template <Real R>
-[[nodiscard, gnu::always_inline]] inline R turn_of(R x, std::type_identity_t<R> y) noexcept {
+[[nodiscard]] LUMIS_INLINE inline R turn_of(R x, std::type_identity_t<R> y) noexcept {
     const R turn = signed_turn_of(x, y);
     const R wrapped = real::rounded(real::select(turn < 0, turn + 1, turn));
     // The sum of a tiny negative turn and 1 rounds to 1.
@@ -145,7 +146,7 @@ namespace real {
 
 // atan2(y, x) in radians, within 2.75 epsilon, relative; (0, 0) gives 0.
 template <Real R>
-[[nodiscard, gnu::always_inline]] inline R atan2(R y, std::type_identity_t<R> x) noexcept {
+[[nodiscard]] LUMIS_INLINE inline R atan2(R y, std::type_identity_t<R> x) noexcept {
     return 2 * std::numbers::pi_v<scalar_of<R>> * signed_turn_of(R(x), y);
 }
 

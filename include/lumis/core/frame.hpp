@@ -3,6 +3,7 @@
 
 #include "lumis/core/assert.hpp"
 #include "lumis/core/detail/arguments.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/sample.hpp"
 
 #include <glm/geometric.hpp>
@@ -18,7 +19,7 @@ class Frame {
   public:
     // Any frame around a normal, which is asserted to be a unit vector; else it is scaled to one, and where it has no
     // direction nothing is drawn in the frame (Duff et al. 2017, "Building an Orthonormal Basis, Revisited", listing 3).
-    [[gnu::always_inline]] explicit Frame(const Direction<T>& any_normal) noexcept {
+    LUMIS_INLINE explicit Frame(const Direction<T>& any_normal) noexcept {
         LUMIS_ASSERT(detail::is_unit(any_normal));
         const Direction<T> normal = normal_ = detail::unit_or(any_normal, not_a_number);
         const T sign = std::copysign(T(1), normal.z);
@@ -55,8 +56,8 @@ class Frame {
     // A vector that has no direction becomes this, of which strategies draw nothing.
     static constexpr T not_a_number = std::numeric_limits<T>::quiet_NaN();
 
-    [[nodiscard, gnu::noinline, gnu::cold]] static Frame orthonormal(Direction<T> tangent, Direction<T> bitangent,
-                                                                     Direction<T> normal) noexcept {
+    [[nodiscard]] LUMIS_COLD static Frame orthonormal(Direction<T> tangent, Direction<T> bitangent,
+                                                      Direction<T> normal) noexcept {
         const bool left_handed = detail::dot(glm::cross(normal, tangent), bitangent) < 0;
         Frame frame;
         frame.normal_ = detail::unit_or(normal, not_a_number);

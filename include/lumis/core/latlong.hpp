@@ -1,6 +1,7 @@
 // Latitude-longitude coordinates of directions: row 0 at +y, v = acos(y) / pi, u = 1/2 + atan2(z, x) / (2 pi).
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/spherical.hpp"
 
 #include <concepts>
@@ -10,7 +11,7 @@ namespace lumis {
 // (u, v) of a direction, of any length whose square is in range; both in [0, 1], and NaN for a NaN. The angle to +y is the
 // arc tangent of sqrt(x^2 + z^2) over y, not acos(y): near the poles a float y has no digits left.
 template <Real R>
-[[nodiscard, gnu::always_inline]] inline glm::vec<2, R> latlong_from_direction(const Direction<R>& w) noexcept {
+[[nodiscard]] LUMIS_INLINE inline glm::vec<2, R> latlong_from_direction(const Direction<R>& w) noexcept {
     const R u = real::rounded(scalar_of<R>(0.5) + signed_turn_of(w.x, w.z));
     const R v = 2 * signed_turn_of(w.y, real::sqrt(R(w.x * w.x + w.z * w.z)));
     return {real::select(u < 1, u, u - 1), v};

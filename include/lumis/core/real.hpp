@@ -8,7 +8,7 @@
 // 2. A difference or sum whose rounding matters is rounded(a - b). Otherwise -fassociative-math may rewrite it together
 //    with what it enters, and the digits that the difference was formed to keep are lost.
 //
-// Constructors and sample functions of strategies are forced inline (gnu::always_inline). Otherwise compilers pass vectors
+// Constructors and sample functions of strategies are forced inline (LUMIS_INLINE). Otherwise compilers pass vectors
 // through memory: they are stored by component and loaded whole, and such a load waits until all stores before it are
 // done (no store forwarding).
 #pragma once
@@ -19,6 +19,7 @@
     "Lumis cannot detect NaN and infinity under -ffinite-math-only (-ffast-math): add -fno-finite-math-only, or define LUMIS_ALLOW_FINITE_MATH_ONLY to accept that"
 #endif
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/scalar.hpp"
 
 #include <glm/vec2.hpp>
@@ -50,8 +51,10 @@ struct ScalarOf<R> {
 // nothing without -fassociative-math, but g++'s keeps multiplications and additions from being fused all the same: it is
 // left out where the flags make arithmetic IEEE 754's.
 template <class V>
-[[nodiscard, gnu::always_inline]] constexpr V rounded(V x) noexcept {
-#if defined(__clang__) && __has_builtin(__arithmetic_fence)
+[[nodiscard]] LUMIS_INLINE constexpr V rounded(V x) noexcept {
+#if defined(__CUDA_ARCH__)
+    // The device re-associates nothing.
+#elif defined(__clang__) && __has_builtin(__arithmetic_fence)
     if (!std::is_constant_evaluated()) return __arithmetic_fence(x);
 #elif defined(__GNUC__) && __GNUC__ >= 12 && __GCC_IEC_559 == 0
     if (!std::is_constant_evaluated()) return __builtin_assoc_barrier(x);
@@ -61,11 +64,13 @@ template <class V>
 
 // x, of which the compiler is to know nothing more.
 template <std::floating_point T>
-[[nodiscard, gnu::always_inline]] constexpr T opaque(T x) noexcept {
+[[nodiscard]] LUMIS_INLINE constexpr T opaque(T x) noexcept {
     if (!std::is_constant_evaluated()) {
-#ifdef __SSE2__
+#if defined(__CUDA_ARCH__)
+        // The device traps nothing.
+#elif defined(__GNUC__) && defined(__SSE2__)
         asm("" : "+x"(x));
-#elif defined(__aarch64__)
+#elif defined(__GNUC__) && defined(__aarch64__)
         asm("" : "+w"(x));
 #elif defined(__GNUC__)
         asm("" : "+m"(x));
@@ -98,7 +103,7 @@ namespace real {
 // The square root by the processor's instruction. std::sqrt compares its argument first, and calls a function that sets
 // errno if it is negative. Without AVX, the vector that the built-in function takes costs as much as that comparison.
 template <Real R>
-[[nodiscard, gnu::always_inline]] inline R sqrt(R x) noexcept {
+[[nodiscard]] LUMIS_INLINE inline R sqrt(R x) noexcept {
 #if defined(__clang__) && defined(__SSE2__) && __FINITE_MATH_ONLY__
     // clang++ would estimate the root of a float (rsqrtss), which costs up to two units in the last place.
     if constexpr (std::same_as<R, float>) {
@@ -112,10 +117,10 @@ template <Real R>
 #endif
 #ifdef __AVX__
     if constexpr (std::same_as<R, float>) {
-        using Vector [[gnu::vector_size(16)]] = float;
+        using Vector LUMIS_VECTOR(16) = float;
         return __builtin_ia32_sqrtss(Vector{x})[0];
     } else if constexpr (std::same_as<R, double>) {
-        using Vector [[gnu::vector_size(16)]] = double;
+        using Vector LUMIS_VECTOR(16) = double;
         return __builtin_ia32_sqrtsd(Vector{x})[0];
     }
 #endif
@@ -124,7 +129,7 @@ template <Real R>
 }
 
 template <Real R>
-[[nodiscard, gnu::always_inline]] inline R length(const glm::vec<3, R>& v) noexcept {
+[[nodiscard]] LUMIS_INLINE inline R length(const glm::vec<3, R>& v) noexcept {
     return sqrt(R(v.x * v.x + v.y * v.y + v.z * v.z));
 }
 
@@ -132,7 +137,7 @@ template <Real R>
 // Does nothing unless the compiler has leave to re-associate (-fassociative-math, which -ffast-math implies).
 // g++ < 12 has no such barrier.
 template <Real R>
-[[nodiscard, gnu::always_inline]] constexpr R rounded(R x) noexcept {
+[[nodiscard]] LUMIS_INLINE constexpr R rounded(R x) noexcept {
     if constexpr (std::floating_point<R>) {
         return detail::rounded(x);
     } else {
@@ -140,18 +145,18 @@ template <Real R>
     }
 }
 template <Real R>
-[[nodiscard, gnu::always_inline]] constexpr glm::vec<2, R> rounded(const glm::vec<2, R>& v) noexcept {
+[[nodiscard]] LUMIS_INLINE constexpr glm::vec<2, R> rounded(const glm::vec<2, R>& v) noexcept {
     return {rounded(v.x), rounded(v.y)};
 }
 template <Real R>
-[[nodiscard, gnu::always_inline]] constexpr glm::vec<3, R> rounded(const glm::vec<3, R>& v) noexcept {
+[[nodiscard]] LUMIS_INLINE constexpr glm::vec<3, R> rounded(const glm::vec<3, R>& v) noexcept {
     return {rounded(v.x), rounded(v.y), rounded(v.z)};
 }
 
 // The dot product, summed in the order of its terms whatever the flags are: x and y first, which are the small ones where
 // both vectors are near +z.
 template <Real R>
-[[nodiscard, gnu::always_inline]] constexpr R dot(const glm::vec<3, R>& a, const glm::vec<3, R>& b) noexcept {
+[[nodiscard]] LUMIS_INLINE constexpr R dot(const glm::vec<3, R>& a, const glm::vec<3, R>& b) noexcept {
     return rounded(R(a.x * b.x + a.y * b.y)) + a.z * b.z;
 }
 
@@ -199,20 +204,20 @@ template <Real R>
 // a / b. clang++ would gather several divisions of numbers into one of a vector, unused lanes of which divide 0 by 0 and
 // so raise FE_INVALID.
 template <Real R>
-[[nodiscard, gnu::always_inline]] constexpr R divide(R a, std::type_identity_t<R> b) noexcept {
+[[nodiscard]] LUMIS_INLINE constexpr R divide(R a, std::type_identity_t<R> b) noexcept {
 #ifdef __clang__
     if constexpr (std::floating_point<R>) return detail::opaque(a / detail::opaque(b));
 #endif
     return a / b;
 }
 template <Real R>
-[[nodiscard, gnu::always_inline]] constexpr glm::vec<2, R> divide(const glm::vec<2, R>& a,
-                                                                  std::type_identity_t<R> b) noexcept {
+[[nodiscard]] LUMIS_INLINE constexpr glm::vec<2, R> divide(const glm::vec<2, R>& a,
+                                                           std::type_identity_t<R> b) noexcept {
     return {divide(a.x, b), divide(a.y, b)};
 }
 template <Real R>
-[[nodiscard, gnu::always_inline]] constexpr glm::vec<3, R> divide(const glm::vec<3, R>& a,
-                                                                  std::type_identity_t<R> b) noexcept {
+[[nodiscard]] LUMIS_INLINE constexpr glm::vec<3, R> divide(const glm::vec<3, R>& a,
+                                                           std::type_identity_t<R> b) noexcept {
     return {divide(a.x, b), divide(a.y, b), divide(a.z, b)};
 }
 
@@ -220,7 +225,7 @@ template <Real R>
 // Compilers turn a / select(condition, x, 1) into select(condition, a / x, a), which divides by x after all; a number is
 // hidden from them, so that they cannot.
 template <Real R>
-[[nodiscard, gnu::always_inline]] constexpr R divisor_where(const MaskOf<R>& condition, R x) noexcept {
+[[nodiscard]] LUMIS_INLINE constexpr R divisor_where(const MaskOf<R>& condition, R x) noexcept {
     if constexpr (std::floating_point<R>) {
         return detail::opaque(condition ? x : R(1));
     } else {
@@ -230,8 +235,8 @@ template <Real R>
 
 // a / b where the condition holds, else 0: for a number without a floating-point exception, if a is finite.
 template <Real R>
-[[nodiscard, gnu::always_inline]] constexpr R quotient_where(const MaskOf<R>& condition, R a,
-                                                             std::type_identity_t<R> b) noexcept {
+[[nodiscard]] LUMIS_INLINE constexpr R quotient_where(const MaskOf<R>& condition, R a,
+                                                      std::type_identity_t<R> b) noexcept {
     if constexpr (std::floating_point<R>) {
         return condition ? divide(a, divisor_where(condition, b)) : R(0);
     } else {
@@ -241,7 +246,7 @@ template <Real R>
 
 // sqrt(x), and 0 for a negative x, without a floating-point exception.
 template <Real R>
-[[nodiscard, gnu::always_inline]] inline R sqrt_or_zero(R x) noexcept {
+[[nodiscard]] LUMIS_INLINE inline R sqrt_or_zero(R x) noexcept {
     if constexpr (std::floating_point<R>) {
         return sqrt(detail::opaque(x > 0 ? x : R(0)));
     } else {
@@ -261,17 +266,17 @@ template <class Condition, class A, class B>
 
 // As std::min and std::max: a NaN in b yields a.
 template <Real R>
-[[nodiscard]] constexpr R min(R a, std::type_identity_t<R> b) noexcept {
+[[nodiscard]] constexpr R lesser(R a, std::type_identity_t<R> b) noexcept {
     return select(b < a, b, a);
 }
 template <Real R>
-[[nodiscard]] constexpr R max(R a, std::type_identity_t<R> b) noexcept {
+[[nodiscard]] constexpr R greater(R a, std::type_identity_t<R> b) noexcept {
     return select(a < b, b, a);
 }
 
 template <Real R>
 [[nodiscard]] constexpr R clamp(R x, std::type_identity_t<R> low, std::type_identity_t<R> high) noexcept {
-    return max(min(x, high), low);
+    return greater(lesser(x, high), low);
 }
 
 // The largest of a range of numbers, of which there is at least one.

@@ -35,19 +35,19 @@ struct LightSample {
 // The policy for densities in one line: a positive finite number stays; anything else, NaN too, means "nothing drawn".
 template <Real R>
 [[nodiscard]] constexpr R density_or_zero(R pdf) noexcept {
-    return real::select(pdf > 0 && pdf <= std::numeric_limits<R>::max(), pdf, 0);
+    return real::select(pdf > 0 && pdf <= (std::numeric_limits<R>::max)(), pdf, 0);
 }
 
 // Whether a squared length is a normal number, neither 0 nor subnormal nor infinite: then the vector can be normalised.
 template <Real R>
 [[nodiscard]] constexpr MaskOf<R> is_squared_length(R squared) noexcept {
-    return squared >= std::numeric_limits<R>::min() && squared <= std::numeric_limits<R>::max();
+    return squared >= (std::numeric_limits<R>::min)() && squared <= (std::numeric_limits<R>::max)();
 }
 
 // Whether no component is NaN or infinite, nor so large that their sum is.
 template <Real R>
 [[nodiscard]] constexpr MaskOf<R> all_finite(const glm::vec<3, R>& v) noexcept {
-    return real::abs(v.x) + real::abs(v.y) + real::abs(v.z) <= std::numeric_limits<R>::max();
+    return real::abs(v.x) + real::abs(v.y) + real::abs(v.z) <= (std::numeric_limits<R>::max)();
 }
 
 // A local direction above the horizon stays as it is. One below it, and what is no direction (NaN, or of a length whose

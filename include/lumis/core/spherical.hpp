@@ -3,13 +3,14 @@
 #pragma once
 
 #include "lumis/core/elementary.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/sample.hpp"
 
 namespace lumis {
 
 // sin(theta) from 1 - cos(theta) in [0, 2].
 template <Real R>
-[[nodiscard, gnu::always_inline]] inline R sine_of_versine(R versine) noexcept {
+[[nodiscard]] LUMIS_INLINE inline R sine_of_versine(R versine) noexcept {
     return real::sqrt(R(versine * (2 - versine)));
 }
 
@@ -22,7 +23,7 @@ template <Real R>
 
 // The unit vector at polar angle theta from +z, given 1 - cos(theta) in [0, 2], and at a turn in [0, 1] from +x.
 template <Real R>
-[[nodiscard, gnu::always_inline]] inline Direction<R> direction_at(R versine, std::type_identity_t<R> turn) noexcept {
+[[nodiscard]] LUMIS_INLINE inline Direction<R> direction_at(R versine, std::type_identity_t<R> turn) noexcept {
     const R sin_theta = sine_of_versine(versine);
     const auto circle = unit_circle(turn);
     return {sin_theta * circle.x, sin_theta * circle.y, 1 - versine};

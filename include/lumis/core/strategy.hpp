@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lumis/core/measure.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/sample.hpp"
 
 #include <glm/ext/vector_double1.hpp>
@@ -31,7 +32,7 @@ namespace detail {
 
 // A sample as it is, if its point and density are a Point and an R; else one that is made of what they convert to.
 template <class Point, class R, class Drawn>
-[[nodiscard, gnu::always_inline]] constexpr decltype(auto) as_promised(const Drawn& sample) {
+[[nodiscard]] LUMIS_INLINE constexpr decltype(auto) as_promised(const Drawn& sample) {
     if constexpr (std::same_as<decltype(sample.value), Point> && std::same_as<decltype(sample.pdf), R>) {
         return (sample);
     } else if constexpr (requires { sample.distance; }) {

@@ -2,7 +2,7 @@
 // exactly 1; the adaptors here cannot.
 #pragma once
 
-#include "lumis/core/lifetime.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/scalar.hpp"
 
 #include <glm/ext/vector_double1.hpp>
@@ -58,9 +58,9 @@ template <int N, class T, class F>
 // to compile.
 template <class G>
 concept RandomBitGenerator = std::invocable<G&> && std::unsigned_integral<std::invoke_result_t<G&>> && requires {
-    { G::min() } -> std::same_as<std::invoke_result_t<G&>>;
-    { G::max() } -> std::same_as<std::invoke_result_t<G&>>;
-    requires std::bool_constant<(G::min() < G::max())>::value;
+    { (G::min)() } -> std::same_as<std::invoke_result_t<G&>>;
+    { (G::max)() } -> std::same_as<std::invoke_result_t<G&>>;
+    requires std::bool_constant<(G::min() < (G::max)())>::value;
 };
 
 // Any standard uniform random bit generator as a source. Uniforms{engine} draws from the caller's engine and advances
@@ -96,16 +96,16 @@ class Uniforms {
     // `width` fair bits: a draw beyond the largest power of two that the engine's range holds is drawn again.
     constexpr std::uint64_t draw() {
         if constexpr (range == largest) {
-            return engine_() - Engine::min();
+            return engine_() - (Engine::min)();
         } else {
             std::uint64_t drawn;
-            do drawn = engine_() - Engine::min();
+            do drawn = engine_() - (Engine::min)();
             while (drawn > largest);
             return drawn;
         }
     }
 
-    static constexpr std::uint64_t range = Engine::max() - Engine::min();
+    static constexpr std::uint64_t range = (Engine::max)() - (Engine::min)();
     static constexpr int width = range + 1 == 0 ? 64 : std::bit_width(range + 1) - 1;
     static constexpr std::uint64_t largest = ~std::uint64_t{0} >> (64 - width);
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "lumis/core/measure.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/lights/detail/disk_view.hpp"
 #include "lumis/lights/detail/flat_view.hpp"
@@ -50,11 +51,11 @@ class AreaLight<Shape, ByArea> {
     using Measure = measure::SolidAngle;
     static constexpr int dimensions = 2;
 
-    [[gnu::always_inline]] AreaLight(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept
+    LUMIS_INLINE AreaLight(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept
         : view_{shape, reference_point}, pdf_area_{real::quotient_where(view_.area() > 0, Scalar(1), view_.area())} {}
 
     template <RealOf<Scalar> R = Scalar>
-    [[nodiscard, gnu::always_inline]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+    [[nodiscard]] LUMIS_INLINE LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         const SurfaceSample<R> point = view_.sample(u);
         const R squared = glm::dot(point.position, point.position);
         const auto valid = is_squared_length(squared);

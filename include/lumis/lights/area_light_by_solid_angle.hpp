@@ -3,6 +3,7 @@
 // pdf_from_hit takes what AreaLight<Shape, ByArea>::pdf_from_hit does and needs none of it: any hit has that density.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/lights/area_light.hpp"
 #include "lumis/lights/detail/spherical_rectangle.hpp"
 #include "lumis/lights/detail/spherical_triangle.hpp"
@@ -18,11 +19,11 @@ namespace detail {
 // What was drawn, or nothing where rounding has put the direction beside the light, or has left no unit vector: slivers no
 // wider than the last place of their coordinates are seen so. The distance is 0 on a sphere's surface.
 template <Real R>
-[[nodiscard, gnu::always_inline]] inline LightSample<Direction<R>, R> seen_at(const Direction<R>& w, scalar_of<R> pdf,
-                                                                              R distance) noexcept {
+[[nodiscard]] LUMIS_INLINE inline LightSample<Direction<R>, R> seen_at(const Direction<R>& w, scalar_of<R> pdf,
+                                                                       R distance) noexcept {
     constexpr auto rounding = 64 * std::numeric_limits<R>::epsilon();
     const auto seen = real::abs(real::rounded(R(glm::dot(w, w) - 1))) <= rounding && distance >= 0 &&
-                      distance <= std::numeric_limits<R>::max();
+                      distance <= (std::numeric_limits<R>::max)();
     return {real::select(seen, w, Direction<R>{}), real::select(seen, R(pdf), 0), real::select(seen, distance, 0)};
 }
 
@@ -43,12 +44,12 @@ class AreaLight<Sphere<T>, BySolidAngle> {
     using Measure = measure::SolidAngle;
     static constexpr int dimensions = 2;
 
-    [[gnu::always_inline]] AreaLight(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point) noexcept
+    LUMIS_INLINE AreaLight(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point) noexcept
         : view_{sphere, reference_point}, pdf_{detail::uniform_density(view_.solid_angle())} {}
 
     // u.x = 0 is the centre of the cone.
     template <RealOf<T> R = T>
-    [[nodiscard, gnu::always_inline]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+    [[nodiscard]] LUMIS_INLINE LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         const auto [direction, distance] = view_.direction(u);
         return detail::seen_at(direction, pdf_, distance);
     }
@@ -84,12 +85,12 @@ class AreaLight<Triangle<T>, BySolidAngle> {
     using Measure = measure::SolidAngle;
     static constexpr int dimensions = 2;
 
-    [[gnu::always_inline]] AreaLight(const Triangle<T>& triangle, const glm::vec<3, T>& reference_point) noexcept
+    LUMIS_INLINE AreaLight(const Triangle<T>& triangle, const glm::vec<3, T>& reference_point) noexcept
         : AreaLight{FlatShape<Triangle<T>>{triangle, reference_point}} {}
 
     // u.x cuts off a share of the solid angle by an arc from a to the edge bc; u.y goes along that arc.
     template <RealOf<T> R = T>
-    [[nodiscard, gnu::always_inline]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+    [[nodiscard]] LUMIS_INLINE LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         if (!(pdf_ > 0)) return {};
         const Direction<R> w = seen_.sample(u);
         return detail::seen_at(w, pdf_, view_.distance_along(w));
@@ -113,7 +114,7 @@ class AreaLight<Triangle<T>, BySolidAngle> {
     [[nodiscard]] T solid_angle() const noexcept { return seen_.solid_angle(); }
 
   private:
-    [[gnu::always_inline]] explicit AreaLight(const FlatShape<Triangle<T>>& shape) noexcept
+    LUMIS_INLINE explicit AreaLight(const FlatShape<Triangle<T>>& shape) noexcept
         : view_{shape},
           seen_{shape.in_units.corner, shape.in_units.corner + shape.in_units.edge_u,
                 shape.in_units.corner + shape.in_units.edge_v, shape.in_units.edge_u, shape.in_units.edge_v},
@@ -137,13 +138,13 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     using Measure = measure::SolidAngle;
     static constexpr int dimensions = 2;
 
-    [[gnu::always_inline]] AreaLight(const Parallelogram<T>& shape, const glm::vec<3, T>& reference_point) noexcept
+    LUMIS_INLINE AreaLight(const Parallelogram<T>& shape, const glm::vec<3, T>& reference_point) noexcept
         : AreaLight{FlatShape<Parallelogram<T>>{shape, reference_point}} {}
 
     // u.x goes along the first edge and u.y along the second or, where the shape is split, u.x from the first edge by way
     // of the diagonal to the second, and u.y away from the corner.
     template <RealOf<T> R = T>
-    [[nodiscard, gnu::always_inline]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+    [[nodiscard]] LUMIS_INLINE LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         if (!(pdf_ > 0)) return {};
         if (halves_) {
             const Direction<R> w = halves_->sample(u);
@@ -177,7 +178,7 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     using Shape = FlatShape<Parallelogram<T>>;
     using Vector = typename Shape::Vector;
 
-    [[gnu::always_inline]] explicit AreaLight(const Shape& shape) noexcept
+    LUMIS_INLINE explicit AreaLight(const Shape& shape) noexcept
         : view_{shape},
           rectangle_{shape.in_units.corner, shape.in_units.edge_u, shape.in_units.edge_v},
           solid_angle_{rectangle_.solid_angle()},
@@ -198,13 +199,13 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
         const auto volume =
             glm::dot(shape.in_units.corner, detail::cross(shape.in_units.edge_u, shape.in_units.edge_v));
         return std::abs(dot) <= 4 * std::numeric_limits<T>::epsilon() * u * v &&
-               32 * std::abs(volume) >= u * v * real::max(u, v);
+               32 * std::abs(volume) >= u * v * real::greater(u, v);
     }
 
     // Two triangles, each from an edge at the corner to the diagonal.
     class Halves {
       public:
-        [[gnu::always_inline]] explicit Halves(const Shape& shape) noexcept
+        LUMIS_INLINE explicit Halves(const Shape& shape) noexcept
             : Halves{shape.in_units.corner, shape.in_units.edge_u, shape.in_units.edge_v,
                      shape.in_units.edge_u + shape.in_units.edge_v} {}
 
@@ -233,8 +234,7 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
         }
 
       private:
-        [[gnu::always_inline]] Halves(const Vector& a, const Vector& u, const Vector& v,
-                                      const Vector& diagonal) noexcept
+        LUMIS_INLINE Halves(const Vector& a, const Vector& u, const Vector& v, const Vector& diagonal) noexcept
             : first_{a, a + u, a + diagonal, u, diagonal}, second_{a, a + v, a + diagonal, v, diagonal} {
             const Vector across = detail::cross(a, diagonal);
             to_first_ = glm::dot(u, across) > 0 ? across : -across;

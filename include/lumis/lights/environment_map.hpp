@@ -8,6 +8,7 @@
 
 #include "lumis/core/detail/spannable.hpp"
 #include "lumis/core/latlong.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/tables/detail/alias_rows.hpp"
@@ -69,7 +70,7 @@ class BasicEnvironmentMap {
         const double excess = options.mis_compensation ? compensation(weights_of, for_each_row) : 0.0;
         const auto compensated = [&](std::size_t y, std::span<double> weights) {
             weights_of(y, weights);
-            for (double& weight : weights) weight = real::max(weight - excess, 0.0);
+            for (double& weight : weights) weight = real::greater(weight - excess, 0.0);
         };
         grid_.deal(
             compensated, [&](std::size_t y) { return row_extent(y); }, for_each_row);
@@ -98,7 +99,7 @@ class BasicEnvironmentMap {
     // The part of sampling that reads the tables: u.y draws the row, u.x the texel within it. As many of a float's 2^24
     // uniforms draw a texel as it has counts. Each yields another position along the axis, in the middle of one of as many
     // equal parts: 2048 for an average texel in a row of 8192, which is as fine as a float's direction.
-    [[nodiscard, gnu::always_inline]] Drawn<T> draw(glm::vec<2, T> u) const noexcept {
+    [[nodiscard]] LUMIS_INLINE Drawn<T> draw(glm::vec<2, T> u) const noexcept {
         const auto texel = grid_.draw(u);
         const Row& row = rows_[texel.row];
         return {(static_cast<T>(texel.column) + texel.position.x) * turn_of_texel_,
@@ -127,7 +128,7 @@ class BasicEnvironmentMap {
     // Forced inline so that w stays in registers: loaded from where it has just been stored, it would delay every look-up,
     // see core/real.hpp.
     template <RealOf<T> R = T>
-    [[nodiscard, gnu::always_inline]] R pdf(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_INLINE R pdf(const Direction<R>& w) const noexcept {
         return pdf_at(latlong_from_direction(w));
     }
 

@@ -7,7 +7,7 @@
 
 #include "lumis/core/detail/held.hpp"
 #include "lumis/core/detail/spannable.hpp"
-#include "lumis/core/lifetime.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/lights/detail/nearest.hpp"
 #include "lumis/tables/alias_table.hpp"
@@ -85,7 +85,7 @@ class LightSet {
             sample.pdf = density(sample.value, [&](std::size_t i, const Light& light) {
                 if constexpr (DrawsDistance<Light>) {
                     if (i != drawn.index)
-                        sample.distance = real::min(sample.distance, light.distance_along(sample.value));
+                        sample.distance = real::lesser(sample.distance, light.distance_along(sample.value));
                 }
             });
             return sample;
@@ -106,7 +106,7 @@ class LightSet {
     [[nodiscard]] Scalar distance_along(const Point& w) const noexcept requires LightStrategy<Light> {
         Scalar nearest = std::numeric_limits<Scalar>::infinity();
         for (std::size_t i = 0; i < table_.size(); ++i) {
-            if (table_.pdf(i) > 0) nearest = real::min(nearest, light(i).distance_along(w));
+            if (table_.pdf(i) > 0) nearest = real::lesser(nearest, light(i).distance_along(w));
         }
         return nearest;
     }

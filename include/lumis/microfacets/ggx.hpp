@@ -2,6 +2,7 @@
 // Local frame, +z the shading normal. Walter et al. 2007; Heitz 2014, "Understanding the Masking-Shadowing Function".
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/sample.hpp"
 
@@ -24,7 +25,7 @@ template <std::floating_point T = float>
 class Ggx {
   public:
     // Roughness along x and y.
-    [[gnu::always_inline]] explicit Ggx(glm::vec<2, T> alpha) noexcept : alpha_{in_range(alpha.x), in_range(alpha.y)} {
+    LUMIS_INLINE explicit Ggx(glm::vec<2, T> alpha) noexcept : alpha_{in_range(alpha.x), in_range(alpha.y)} {
         LUMIS_ASSERT(!detail::is_nan(alpha));
         if (alpha_.x * alpha_.y > 0) {
             inverse_alpha_ = {real::divide(T(1), alpha_.x), real::divide(T(1), alpha_.y)};
@@ -85,7 +86,7 @@ class Ggx {
 
   private:
     static T in_range(T alpha) noexcept {
-        return alpha >= 0 && alpha <= T(ggx_max_alpha) ? real::max(alpha, T(ggx_min_alpha)) : T(0);
+        return alpha >= 0 && alpha <= T(ggx_max_alpha) ? real::greater(alpha, T(ggx_min_alpha)) : T(0);
     }
     [[nodiscard]] bool valid() const noexcept { return alpha_.x > 0; }
 

@@ -3,6 +3,7 @@
 // Eto and Tokuyoshi 2023, "Bounded VNDF Sampling for Smith-GGX Reflections".
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/microfacets/detail/ggx_cap.hpp"
 #include "lumis/microfacets/reflected.hpp"
 
@@ -16,7 +17,7 @@ namespace detail {
 // k = (1 - a^2) s^2 / (s^2 + a^2 z^2), without the cancellation.
 template <std::floating_point T>
 [[nodiscard]] T bounded_cap_shortfall(const Direction<T>& wo, const glm::vec<2, T>& alpha) noexcept {
-    const T a = real::min(real::min(alpha.x, alpha.y), T(1));
+    const T a = real::lesser(real::lesser(alpha.x, alpha.y), T(1));
     const T s = 1 + real::sqrt(wo.x * wo.x + wo.y * wo.y);
     const T a2 = a * a, s2 = s * s, z2 = wo.z * wo.z;
     return real::divide(a2 * (s2 + z2), s2 + a2 * z2);
@@ -25,7 +26,7 @@ template <std::floating_point T>
 // A density of the normals that reflect above the horizon; of others it knows nothing.
 template <std::floating_point T>
 struct GgxBoundedNormals : GgxCap<T> {
-    [[gnu::always_inline]] GgxBoundedNormals(const Direction<T>& wo, const Ggx<T>& ggx) noexcept
+    LUMIS_INLINE GgxBoundedNormals(const Direction<T>& wo, const Ggx<T>& ggx) noexcept
         : GgxCap<T>{wo, ggx, [](const auto&... seen) { return bounded_cap_shortfall(seen...); }} {}
 };
 
@@ -34,7 +35,7 @@ struct GgxBoundedNormals : GgxCap<T> {
 template <std::floating_point T = float>
 struct GgxBoundedReflection : Reflected<detail::GgxBoundedNormals<T>> {
     // wo: unit; on or below the horizon nothing is drawn. alpha: roughness along x and y, see ggx_min_alpha.
-    [[gnu::always_inline]] GgxBoundedReflection(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept
+    LUMIS_INLINE GgxBoundedReflection(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept
         : Reflected<detail::GgxBoundedNormals<T>>{wo, detail::GgxBoundedNormals<T>{wo, Ggx<T>{alpha}}} {}
 
     // The surface, for its reflectance: ggx().brdf(wo, wi).

@@ -3,6 +3,7 @@
 // roughness, alpha^2 / (1 + alpha^2) at normal incidence; nothing is drawn then.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/microfacets/ggx_vndf.hpp"
 #include "lumis/microfacets/reflected.hpp"
 
@@ -10,7 +11,7 @@ namespace lumis {
 
 template <std::floating_point T = float>
 struct GgxReflection : Reflected<GgxVndf<T>> {
-    [[gnu::always_inline]] GgxReflection(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept
+    LUMIS_INLINE GgxReflection(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept
         : Reflected<GgxVndf<T>>{wo, GgxVndf<T>{wo, alpha}} {}
 
     // The surface, for its reflectance: ggx().brdf(wo, wi).

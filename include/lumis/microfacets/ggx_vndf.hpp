@@ -2,6 +2,7 @@
 // Heitz 2018, "Sampling the GGX Distribution of Visible Normals"; drawn by spherical caps, Dupuy and Benyoub 2023.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/microfacets/detail/ggx_cap.hpp"
 
 namespace lumis {
@@ -9,7 +10,7 @@ namespace lumis {
 template <std::floating_point T = float>
 struct GgxVndf : detail::GgxCap<T> {
     // wo: unit; on or below the horizon nothing is drawn. alpha: roughness along x and y, see ggx_min_alpha.
-    [[gnu::always_inline]] GgxVndf(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept
+    LUMIS_INLINE GgxVndf(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept
         : detail::GgxCap<T>{wo, Ggx<T>{alpha}, [](const auto&, const auto&) { return T(0); }} {}
 };
 

@@ -2,6 +2,7 @@
 // The reflection Jacobian d(wm)/d(wi) = 1 / (4 wo.wm) (Walter et al. 2007, eq. 14) lives here and nowhere else.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 
 namespace lumis {
@@ -19,13 +20,13 @@ class Reflected {
                   "Reflected needs a strategy over normals, with a density per solid angle");
 
     // wo: unit; on or below the horizon nothing is drawn.
-    [[gnu::always_inline]] Reflected(const Point& wo, const Normals& normals) noexcept
+    LUMIS_INLINE Reflected(const Point& wo, const Normals& normals) noexcept
         : wo_{above_horizon_or_zero(wo)}, normals_{normals} {}
 
     // Normals that reflect below the horizon draw nothing. The density is that of the direction as rounded, so that it
     // cancels exactly against a reflectance evaluated there.
     template <RealOf<Scalar> R = Scalar>
-    [[nodiscard, gnu::always_inline]] Sample<Direction<R>, R> sample(glm::vec<dimensions, R> u) const noexcept {
+    [[nodiscard]] LUMIS_INLINE Sample<Direction<R>, R> sample(glm::vec<dimensions, R> u) const noexcept {
         const Direction<R> wm = normal(u), wo{wo_};
         // Divides by wm's own length, even if it is meant to be 1: otherwise its rounding would lengthen wi by up to five
         // units in the last place. The result is kept as rounded: wo + wi, from which pdf starts, is another vector than

@@ -86,7 +86,7 @@ template <Strategy S>
     for_each_neighbour(x, step, [&](const typename S::Point& neighbour) {
         const Scalar density = strategy.pdf(neighbour);
         if (!(density >= 0)) range.first = range.second = std::numeric_limits<Scalar>::quiet_NaN();
-        range = {std::min(range.first, density), std::max(range.second, density)};
+        range = {(std::min)(range.first, density), (std::max)(range.second, density)};
     });
     return range;
 }
@@ -112,7 +112,7 @@ template <Strategy S>
     const auto check = [&](const UniformsOf<S>& u) {
         const auto sample = strategy.sample(u);
         if (!detail::is_finite(sample.value)) return fail("value ", sample.value, " at u = ", u);
-        if (!(sample.pdf >= 0 && sample.pdf <= std::numeric_limits<Scalar>::max())) {
+        if (!(sample.pdf >= 0 && sample.pdf <= (std::numeric_limits<Scalar>::max)())) {
             return fail("pdf ", sample.pdf, " at u = ", u);
         }
         if (sample.pdf == 0) return;

@@ -160,7 +160,7 @@ namespace detail {
     const double size = static_cast<double>(n);
     Chart<std::size_t> chart;
     chart.at = [n, size](double s, double) -> Chart<std::size_t>::Place {
-        return {std::min(static_cast<std::size_t>(s * size), n - 1), size};
+        return {(std::min)(static_cast<std::size_t>(s * size), n - 1), size};
     };
     // An index beyond n lands in no part.
     chart.coordinates = [n, size](std::size_t i) -> glm::dvec2 {

@@ -58,7 +58,7 @@ template <class Point>
         Accuracy finer{accuracy.absolute / 10, accuracy.depth, 2e5};
         bool improves = true;
         while (improves && masses[cell].error > detail::harmless_error(masses[cell].value) && finer.depth < 24) {
-            finer.depth = std::min(finer.depth + 6, 24);
+            finer.depth = (std::min)(finer.depth + 6, 24);
             const Integral mass = cells.mass(cell, density, finer);
             improves = mass.error < masses[cell].error / 2;
             masses[cell] = mass;
@@ -164,7 +164,7 @@ template <Strategy S, class Point>
         ++observed[cell];
     }
 
-    std::vector<std::pair<double, double>> counts{{samples * std::max(1 - drawn, 0.0), nothing}};
+    std::vector<std::pair<double, double>> counts{{samples * (std::max)(1 - drawn, 0.0), nothing}};
     std::size_t worst = 0;
     double worst_excess = 0;
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
@@ -179,7 +179,7 @@ template <Strategy S, class Point>
     const auto pearson = detail::pearson(std::move(counts), options.thinnest);
 
     // With a single cell there is nothing to compare; a statistic that is not finite fails.
-    const double freedom = std::max(pearson.terms - 1, 1);
+    const double freedom = (std::max)(pearson.terms - 1, 1);
     const double p = std::isfinite(pearson.statistic)
                          ? cdf(complement(boost::math::chi_squared_distribution<double>{freedom}, pearson.statistic))
                          : 0.0;

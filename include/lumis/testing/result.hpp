@@ -68,8 +68,8 @@ class Ratios {
   public:
     void add(double ratio) noexcept {
         ++count_;
-        least_ = std::min(least_, ratio);
-        largest_ = std::max(largest_, ratio);
+        least_ = (std::min)(least_, ratio);
+        largest_ = (std::max)(largest_, ratio);
         sum_ += ratio;
     }
 

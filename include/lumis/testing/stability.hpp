@@ -27,7 +27,7 @@ inline constexpr std::array<T, 10> odd_components{T(0),
                                                   T(-1),
                                                   T(0.6),
                                                   std::numeric_limits<T>::denorm_min(),
-                                                  std::numeric_limits<T>::max(),
+                                                  (std::numeric_limits<T>::max)(),
                                                   std::numeric_limits<T>::infinity(),
                                                   -std::numeric_limits<T>::infinity(),
                                                   std::numeric_limits<T>::quiet_NaN()};
@@ -37,7 +37,7 @@ template <class Point, class Visit>
 void for_each_odd_point(Visit visit) {
     if constexpr (std::integral<Point>) {
         for (Point i = 0; i < 100; ++i) visit(i);
-        visit(std::numeric_limits<Point>::max());
+        visit((std::numeric_limits<Point>::max)());
     } else if constexpr (std::floating_point<Point>) {
         for (const Point x : odd_components<Point>) visit(x);
     } else {
@@ -79,7 +79,7 @@ template <Strategy S>
         result.passed = false;
         ++result.number;
     };
-    const auto is_density = [](Scalar pdf) { return pdf >= 0 && pdf <= std::numeric_limits<Scalar>::max(); };
+    const auto is_density = [](Scalar pdf) { return pdf >= 0 && pdf <= (std::numeric_limits<Scalar>::max)(); };
     detail::for_each_draw(strategy, samples, [&](const auto& u, const auto& sample) {
         check(detail::is_finite(sample.value) && is_density(sample.pdf), "drew ", sample.value, " with density ",
               double{sample.pdf}, " at u = ", u);
@@ -172,9 +172,9 @@ template <class Parameters, class Make>
         };
         check(stays_finite(in_float, options.samples), " in float: ");
         check(stays_finite(in_double, options.samples), " in double: ");
-        const auto near = stays_near(in_float, in_double, options);
-        check(near, ": ");
-        if (!(near.number <= result.number)) result.number = near.number;
+        const auto nearness = stays_near(in_float, in_double, options);
+        check(nearness, ": ");
+        if (!(nearness.number <= result.number)) result.number = nearness.number;
         ++place;
     }
     if (result.passed) {

@@ -2,6 +2,7 @@
 // should be a unit one is scaled to it, so that what is drawn stays what the density says.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 
 #include <glm/vec2.hpp>
@@ -59,9 +60,9 @@ template <FloatOrDouble T>
 // v scaled to unit length; (none, none, none) if it has no direction. The argument is by value: one by reference would have
 // to be in memory wherever this function could be called.
 template <FloatOrDouble T>
-[[nodiscard, gnu::noinline, gnu::cold]] glm::vec<3, T> scaled_to_unit(glm::vec<3, T> v, T none) noexcept {
-    const T longest = real::max(real::max(real::abs(v.x), real::abs(v.y)), real::abs(v.z));
-    if (is_nan(v) || !(longest >= std::numeric_limits<T>::min() && longest <= std::numeric_limits<T>::max())) {
+[[nodiscard]] LUMIS_COLD glm::vec<3, T> scaled_to_unit(glm::vec<3, T> v, T none) noexcept {
+    const T longest = real::greater(real::greater(real::abs(v.x), real::abs(v.y)), real::abs(v.z));
+    if (is_nan(v) || !(longest >= (std::numeric_limits<T>::min)() && longest <= (std::numeric_limits<T>::max)())) {
         return glm::vec<3, T>{none};
     }
     const glm::vec<3, T> scaled = v / longest;
@@ -70,7 +71,7 @@ template <FloatOrDouble T>
 
 // A unit vector as it is, any other as scaled_to_unit has it.
 template <FloatOrDouble T>
-[[nodiscard, gnu::always_inline]] constexpr glm::vec<3, T> unit_or(const glm::vec<3, T>& v, T none) noexcept {
+[[nodiscard]] LUMIS_INLINE constexpr glm::vec<3, T> unit_or(const glm::vec<3, T>& v, T none) noexcept {
     if (is_unit(v)) [[likely]]
         return v;
     return scaled_to_unit(v, none);

@@ -3,6 +3,7 @@
 
 #include "lumis/core/assert.hpp"
 #include "lumis/core/detail/arguments.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/lights/shapes.hpp"
 
@@ -26,7 +27,7 @@ using Wide = std::conditional_t<std::same_as<T, float>, double, T>;
 
 template <std::floating_point T>
 [[nodiscard]] T longest_component(const glm::vec<3, T>& v) noexcept {
-    return real::max(real::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
+    return real::greater(real::greater(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
 }
 
 // The largest power of two that is not above x, but at least the smallest normal number.
@@ -34,13 +35,12 @@ template <std::floating_point T>
 [[nodiscard]] T power_of_two(T x) noexcept {
     using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
     constexpr auto exponent = std::bit_cast<Bits>(std::numeric_limits<T>::infinity());
-    return std::bit_cast<T>(std::bit_cast<Bits>(real::max(std::numeric_limits<T>::min(), x)) & exponent);
+    return std::bit_cast<T>(std::bit_cast<Bits>(real::greater((std::numeric_limits<T>::min)(), x)) & exponent);
 }
 
 // Each difference as rounded: of two vectors nearly in line it is all that is left of their products.
 template <std::floating_point T>
-[[nodiscard, gnu::always_inline]] inline glm::vec<3, T> cross(const glm::vec<3, T>& a,
-                                                              const glm::vec<3, T>& b) noexcept {
+[[nodiscard]] LUMIS_INLINE inline glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) noexcept {
     return real::rounded(glm::cross(a, b));
 }
 
@@ -64,26 +64,25 @@ struct FlatShape {
     Edges in_scene, in_units;
     Wide unit{1};
 
-    [[gnu::always_inline]] FlatShape(const Shape& shape,
-                                     const glm::vec<3, Scalar>& reference_point) noexcept requires is_triangle
+    LUMIS_INLINE FlatShape(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept requires is_triangle
         : FlatShape{difference(shape.a, reference_point), difference(shape.b, shape.a), difference(shape.c, shape.a)} {
         LUMIS_ASSERT(!detail::is_nan(shape) && !detail::is_nan(reference_point));
     }
 
-    [[gnu::always_inline]] FlatShape(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept
+    LUMIS_INLINE FlatShape(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept
         requires(!is_triangle)
         : FlatShape{difference(shape.corner, reference_point), Vector(shape.edge_u), Vector(shape.edge_v)} {
         LUMIS_ASSERT(!detail::is_nan(shape) && !detail::is_nan(reference_point));
     }
 
   private:
-    [[gnu::always_inline]] FlatShape(const Vector& corner, const Vector& u, const Vector& v) noexcept
+    LUMIS_INLINE FlatShape(const Vector& corner, const Vector& u, const Vector& v) noexcept
         : in_scene{corner, u, v}, in_units{in_scene} {
         if constexpr (std::same_as<Wide, Scalar>) {
             // Not so small that the square of the corner would leave its range: then the shape subtends nothing.
             const Wide least = detail::longest_component(corner) * Wide(0x1p-500);
-            const Wide longest = real::max(detail::longest_component(u), detail::longest_component(v));
-            unit = detail::power_of_two(real::max(longest, least));
+            const Wide longest = real::greater(detail::longest_component(u), detail::longest_component(v));
+            unit = detail::power_of_two(real::greater(longest, least));
             const Wide inverse = 1 / unit;
             in_units = {corner * inverse, u * inverse, v * inverse};
         }

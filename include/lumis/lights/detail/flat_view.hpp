@@ -1,6 +1,7 @@
 // A triangle or parallelogram as seen from a reference point: points on it evenly by area, and rays that meet it.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/lights/detail/flat_shape.hpp"
 #include "lumis/lights/detail/surface.hpp"
@@ -18,10 +19,10 @@ class FlatView {
     static constexpr bool is_triangle = FlatShape<Shape>::is_triangle;
 
   public:
-    [[gnu::always_inline]] FlatView(const Shape& shape, const glm::vec<3, T>& reference_point) noexcept
+    LUMIS_INLINE FlatView(const Shape& shape, const glm::vec<3, T>& reference_point) noexcept
         : FlatView{FlatShape<Shape>{shape, reference_point}} {}
 
-    [[gnu::always_inline]] explicit FlatView(const FlatShape<Shape>& shape) noexcept
+    LUMIS_INLINE explicit FlatView(const FlatShape<Shape>& shape) noexcept
         : corner_{shape.in_scene.corner}, edge_u_{shape.in_scene.edge_u}, edge_v_{shape.in_scene.edge_v} {
         using Wide = typename FlatShape<Shape>::Wide;
         constexpr T rounding = 4 * std::numeric_limits<T>::epsilon();
@@ -42,7 +43,7 @@ class FlatView {
 
     // u in [0,1]^2. Triangles by the square-root map (Turk 1990), which folds nothing and so keeps strata together.
     template <RealOf<T> R = T>
-    [[nodiscard, gnu::always_inline]] SurfaceSample<R> sample(glm::vec<2, R> u) const noexcept {
+    [[nodiscard]] LUMIS_INLINE SurfaceSample<R> sample(glm::vec<2, R> u) const noexcept {
         R s = u.x, t = u.y;
         if constexpr (is_triangle) {
             const R root = real::sqrt(u.x);
@@ -79,10 +80,10 @@ class FlatView {
     [[nodiscard]] SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
         const R cos_light = glm::dot(w, Direction<R>(normal_));
         const R distance = real::quotient_where(real::abs(cos_light) > 0, R(height_), cos_light);
-        const R far = real::abs(cos_light), sign = real::copysign(R(T(1)), cos_light);
+        const R reach = real::abs(cos_light), sign = real::copysign(R(T(1)), cos_light);
         const R s = sign * glm::dot(w, Direction<R>(across_u_)), t = sign * glm::dot(w, Direction<R>(across_v_));
-        const auto below_far_edges =
-            is_triangle ? s + t <= far + (rounding_u_ + rounding_v_) : s <= far + rounding_u_ && t <= far + rounding_v_;
+        const auto below_far_edges = is_triangle ? s + t <= reach + (rounding_u_ + rounding_v_)
+                                                 : s <= reach + rounding_u_ && t <= reach + rounding_v_;
         return hit_if(distance > 0 && s >= -rounding_u_ && t >= -rounding_v_ && below_far_edges, distance, cos_light);
     }
 

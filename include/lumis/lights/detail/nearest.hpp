@@ -41,7 +41,7 @@ template <std::size_t skipped = no_index, class... S, class Point, std::floating
     for_each_index<sizeof...(S)>([&](auto k) {
         using Other = std::remove_cvref_t<std::tuple_element_t<k, std::tuple<S...>>>;
         if constexpr (k != skipped && LightStrategy<Other>) {
-            nearest = real::min(nearest, std::get<k>(strategies).distance_along(w));
+            nearest = real::lesser(nearest, std::get<k>(strategies).distance_along(w));
         }
     });
     return nearest;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lumis/core/frame.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/spherical.hpp"
 #include "lumis/lights/detail/surface.hpp"
 #include "lumis/lights/shapes.hpp"
@@ -21,7 +22,7 @@ class SphereView {
   public:
     // A sphere whose radius is not positive, or a number out of range, subtends nothing; nor does one from its own surface,
     // to which the distance is 0.
-    [[gnu::always_inline]] SphereView(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point) noexcept
+    LUMIS_INLINE SphereView(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point) noexcept
         : center_{real::rounded(sphere.center - reference_point)},
           radius_{sphere.radius},
           axis_{Direction<T>{0, 0, 1}} {
@@ -39,7 +40,7 @@ class SphereView {
         versine_ = inside_ ? T(2) : sine * real::quotient_where(distance_ > 0, radius_, distance_ + tangent);
         chord_ = real::sqrt_or_zero(2 * versine_) + 8 * std::numeric_limits<T>::epsilon();
         const bool touches = tangent_squared_ == 0;
-        if (!((has_axis || inside_) && !touches && radius_ > 0 && radius_ <= std::numeric_limits<T>::max())) {
+        if (!((has_axis || inside_) && !touches && radius_ > 0 && radius_ <= (std::numeric_limits<T>::max)())) {
             versine_ = radius_ = 0;
         }
     }
@@ -53,7 +54,7 @@ class SphereView {
         const Direction<R> normal = direction_at(R(2 * u.x), u.y);
         SurfaceSample<R> drawn{glm::vec<3, R>(center_) + R(radius_) * normal};
         const R towards = -glm::dot(drawn.position, normal);
-        drawn.cos_times_distance = inside_ ? towards : real::max(towards, 0);
+        drawn.cos_times_distance = inside_ ? towards : real::greater(towards, 0);
         return drawn;
     }
 
@@ -66,7 +67,7 @@ class SphereView {
     // Evenly over the cone; u.x = 0 is its axis. Its height, 1 - cos of its half-angle, is formed as sin^2 / (1 + cos):
     // the textbook difference is wrong by 291 % at 0.01 degree in float.
     template <RealOf<T> R = T>
-    [[nodiscard, gnu::always_inline]] Ray<R> direction(glm::vec<2, R> u) const noexcept {
+    [[nodiscard]] LUMIS_INLINE Ray<R> direction(glm::vec<2, R> u) const noexcept {
         const R versine = u.x * versine_;
         const Direction<R> local = direction_at(versine, u.y);
         return {axis_.to_world(local), distance_along(distance_ * local.z, distance_ * sine_of_versine(versine))};

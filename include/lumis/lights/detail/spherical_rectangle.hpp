@@ -9,6 +9,7 @@
 #pragma once
 
 #include "lumis/core/elementary.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/sample.hpp"
 #include "lumis/lights/detail/flat_shape.hpp"
 
@@ -30,8 +31,7 @@ class SphericalRectangle {
 
     // A corner relative to the reference point, and two orthogonal edges; of others the result means nothing. 0 sr without
     // area and edge-on.
-    [[gnu::always_inline]] SphericalRectangle(const Vector& corner, const Vector& edge_u,
-                                              const Vector& edge_v) noexcept {
+    LUMIS_INLINE SphericalRectangle(const Vector& corner, const Vector& edge_u, const Vector& edge_v) noexcept {
         const Wide width = real::length(edge_u), height = real::length(edge_v);
         if (!(width > 0 && height > 0)) return;
         const Vector x = real::divide(edge_u, width), y = real::divide(edge_v, height), up = glm::cross(x, y);
@@ -41,7 +41,7 @@ class SphericalRectangle {
         y_ = y;
         z_ = above > 0 ? -up : up;
         const Wide x0 = glm::dot(corner, x), y0 = glm::dot(corner, y), x1 = x0 + width, y1 = y0 + height;
-        unit_ = detail::power_of_two(static_cast<T>(real::max(width, height)));
+        unit_ = detail::power_of_two(static_cast<T>(real::greater(width, height)));
         near_ = Vector{x0, y0, z} * (1 / Wide{unit_});
         far_ = glm::vec<2, Wide>{x1, y1} * (1 / Wide{unit_});
         const Wide zz = z * z, xx0 = x0 * x0 + zz, xx1 = x1 * x1 + zz, yy0 = y0 * y0 + zz, yy1 = y1 * y1 + zz;
@@ -79,7 +79,8 @@ class SphericalRectangle {
         // Urena's angles lose epsilon over the solid angle, and more at a grazing view, z / rho; and those of a narrow
         // rectangle that is much longer than it is far away are too near to half a turn.
         constexpr Wide enough = 1e5f * std::numeric_limits<T>::epsilon();
-        const Wide outside_x = real::max(real::max(x0, -x1), 0), outside_y = real::max(real::max(y0, -y1), 0);
+        const Wide outside_x = real::greater(real::greater(x0, -x1), 0),
+                   outside_y = real::greater(real::greater(y0, -y1), 0);
         const Wide rho_squared = outside_x * outside_x + outside_y * outside_y, least = a * c / 32;
         const Wide omega = solid_angle_, grazing = omega * 8 / enough;
         has_digits_ = omega > enough && grazing * grazing * zz > rho_squared &&
@@ -96,7 +97,7 @@ class SphericalRectangle {
 
     // Relative to the reference point, on the rectangle. u.x goes along the first edge, u.y along the second.
     template <RealOf<T> R = T>
-    [[nodiscard, gnu::always_inline]] glm::vec<3, R> sample(glm::vec<2, R> u) const noexcept {
+    [[nodiscard]] LUMIS_INLINE glm::vec<3, R> sample(glm::vec<2, R> u) const noexcept {
         const auto a = unit_circle(R(u.x * (solid_angle_ * (std::numbers::inv_pi_v<T> / 2)) + k_));
         // x = z0 / sqrt(f^2 + b0^2 - 1) of the sign of f = numerator / sin a, with 1 - b0^2 formed as a square. The numerator
         // is negative.
@@ -138,7 +139,7 @@ class SphericalRectangle {
     // x / sqrt(square), or next to infinity where rounding has left no square.
     template <Real R>
     static R ratio(R x, R square) noexcept {
-        return real::divide(x, real::sqrt(real::max(square, std::numeric_limits<T>::min())));
+        return real::divide(x, real::sqrt(real::greater(square, (std::numeric_limits<T>::min)())));
     }
 
     // p q + p.q of the lengths of p and q, their product, and the square of p x q: for p and q nearly opposite to each

@@ -22,6 +22,7 @@
 #pragma once
 
 #include "lumis/core/elementary.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/sample.hpp"
 #include "lumis/lights/detail/flat_shape.hpp"
@@ -43,8 +44,8 @@ class SphericalTriangle {
   public:
     // Vertices relative to the reference point, and the edges from a to b and from a to c, which the caller may know better
     // than their differences. Their squares have to be in range. 0 sr without area, edge-on and from a vertex.
-    [[gnu::always_inline]] SphericalTriangle(const Vector& a, const Vector& b, const Vector& c, const Vector& ab,
-                                             const Vector& ac) noexcept {
+    LUMIS_INLINE SphericalTriangle(const Vector& a, const Vector& b, const Vector& c, const Vector& ab,
+                                   const Vector& ac) noexcept {
         const Vector cross_ab = detail::cross(a, ab), cross_bc = detail::cross(b, ac - ab);
         const Wide volume = glm::dot(cross_ab, ac), aa = glm::dot(a, a), bb = glm::dot(b, b), cc = glm::dot(c, c);
         if (!(std::abs(volume) > 0 && in_range(aa) && in_range(bb) && in_range(cc))) return;
@@ -92,7 +93,7 @@ class SphericalTriangle {
 
     // u.x cuts off a share of the solid angle by an arc from a to the edge bc; u.y goes along that arc.
     template <RealOf<T> R = T>
-    [[nodiscard, gnu::always_inline]] Direction<R> sample(glm::vec<2, R> u) const noexcept {
+    [[nodiscard]] LUMIS_INLINE Direction<R> sample(glm::vec<2, R> u) const noexcept {
         // E / 2 by way of E / 4: so its cosine keeps more digits.
         const auto quarter = half_circle(R(u.x * (solid_angle_ / (8 * std::numbers::pi_v<T>))));
         const R sine = 2 * quarter.x * quarter.y;
@@ -124,14 +125,14 @@ class SphericalTriangle {
                                                : glm::vec<2, T>{to_c * one_plus_cos_ - 2 * to_b * g2_, length - middle};
         const glm::vec<2, T> unit = half * inverse(real::sqrt(half.x * half.x + half.y * half.y));
         const T reach = arc_to_q(unit, glm::vec<2, T>{unit.x - unit.y * g2_, unit.y * g1_}).one_minus_cos;
-        return {real::max(real::divide(2 * std::atan2(half.y, half.x), solid_angle_), T(0)),
+        return {real::greater(real::divide(2 * std::atan2(half.y, half.x), solid_angle_), T(0)),
                 real::divide(glm::dot(aw, aw), 2 * reach)};
     }
 
   private:
     // 1 + cos and 1 - cos of a side: the larger one from the cosine, the other as sin^2 divided by it.
     struct Side {
-        [[gnu::always_inline]] Side(Wide cosine, const Vector& cross) noexcept : squared_sine{glm::dot(cross, cross)} {
+        LUMIS_INLINE Side(Wide cosine, const Vector& cross) noexcept : squared_sine{glm::dot(cross, cross)} {
             const Wide larger = 1 + std::abs(cosine), smaller = real::divide(squared_sine, larger);
             one_plus_cos = cosine > 0 ? larger : smaller;
             one_minus_cos = cosine > 0 ? smaller : larger;
@@ -149,8 +150,7 @@ class SphericalTriangle {
 
     // half: (cos, sin) of E / 2; xy: x and y.
     template <Real R>
-    [[nodiscard, gnu::always_inline]] Arc<R> arc_to_q(const glm::vec<2, R>& half,
-                                                      const glm::vec<2, R>& xy) const noexcept {
+    [[nodiscard]] LUMIS_INLINE Arc<R> arc_to_q(const glm::vec<2, R>& half, const glm::vec<2, R>& xy) const noexcept {
         const R sine = half.y * two_over_reach_;
         const bool ab_is_far = reach_ > 1;
         const R to_b = ab_is_far
@@ -159,13 +159,14 @@ class SphericalTriangle {
         const glm::vec<2, R> p{to_b, xy.x * sine};
         const R pp = p.x * p.x + p.y * p.y;
         const R inverse =
-            SphericalTriangle::inverse(real::max(R(xy.x * xy.x + xy.y * xy.y), std::numeric_limits<T>::min()));
+            SphericalTriangle::inverse(real::greater(R(xy.x * xy.x + xy.y * xy.y), (std::numeric_limits<T>::min)()));
         // The smaller one as it is, the larger one from it: so they sum to 2 as well as T can tell.
         const R one_minus_cos = pp * inverse, one_plus_cos = one_plus_cos_ * inverse;
         const auto q_is_far = one_plus_cos < 1;
-        const R far = 2 - one_plus_cos;
-        return {p, real::select(q_is_far, far, one_minus_cos), real::select(q_is_far, one_plus_cos, 2 - one_minus_cos),
-                real::select(q_is_far, real::quotient_where(q_is_far && pp > 0, far, pp), inverse)};
+        const R versine_if_far = 2 - one_plus_cos;
+        return {p, real::select(q_is_far, versine_if_far, one_minus_cos),
+                real::select(q_is_far, one_plus_cos, 2 - one_minus_cos),
+                real::select(q_is_far, real::quotient_where(q_is_far && pp > 0, versine_if_far, pp), inverse)};
     }
 
     template <Real R>
@@ -174,7 +175,7 @@ class SphericalTriangle {
     }
 
     static bool in_range(Wide x) noexcept {
-        return x >= std::numeric_limits<Wide>::min() && x <= std::numeric_limits<Wide>::max();
+        return x >= (std::numeric_limits<Wide>::min)() && x <= (std::numeric_limits<Wide>::max)();
     }
 
     Direction<T> a_{1, 0, 0}, to_b_{0, 1, 0}, to_c_{0, 0, 1};  // orthonormal: a, and from there towards b, and across

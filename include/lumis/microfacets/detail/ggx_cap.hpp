@@ -2,6 +2,7 @@
 // cap evenly, and the normal is half-way between wo and the ray. Dupuy and Benyoub 2023; Eto and Tokuyoshi 2023.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/spherical.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/microfacets/ggx.hpp"
@@ -22,7 +23,7 @@ class GgxCap {
 
     // The cap is z > -(1 - shortfall) wo.z, with wo stretched; shortfall_of(wo, alpha) is asked for a unit wo or 0.
     template <class ShortfallOf>
-    [[gnu::always_inline]] GgxCap(const Direction<T>& wo, const Ggx<T>& ggx, const ShortfallOf& shortfall_of) noexcept
+    LUMIS_INLINE GgxCap(const Direction<T>& wo, const Ggx<T>& ggx, const ShortfallOf& shortfall_of) noexcept
         : ggx_{ggx}, wo_{above_horizon_or_zero(wo)} {
         const T length = ggx_.stretched_length(wo_);
         if (!is_squared_length(length * length)) return;
@@ -46,7 +47,7 @@ class GgxCap {
     // The drawn normal, of any length, for callers that need no unit vector. Its z is formed as a sum of positive products:
     // the textbook's z of the half vector cancels at grazing incidence.
     template <RealOf<T> R = T>
-    [[nodiscard, gnu::always_inline]] Direction<R> along_normal(glm::vec<2, R> u) const noexcept {
+    [[nodiscard]] LUMIS_INLINE Direction<R> along_normal(glm::vec<2, R> u) const noexcept {
         const Direction<R> reflected = direction_at(R(u.x * cap_height_), u.y);
         return {ggx_.alpha().x * (reflected.x + wo_std_.x), ggx_.alpha().y * (reflected.y + wo_std_.y),
                 (1 - u.x) * cap_height_ + shortfall_ * wo_std_.z};

@@ -56,7 +56,7 @@ class CountGrid {
             sums[row] = cells_.deal(row, weights);
         });
         empty_ = true;
-        int exponent = std::numeric_limits<int>::min();
+        int exponent = (std::numeric_limits<int>::min)();
         for (const Dealt& sum : sums) {
             require_enough_counts<T>(sum);
             empty_ = empty_ && !(sum.value > 0);
@@ -67,7 +67,8 @@ class CountGrid {
         constexpr double least = std::numeric_limits<double>::denorm_min();
         std::vector<double> weights(height_);
         for (std::size_t row = 0; row < height_; ++row) {
-            if (sums[row].value > 0) weights[row] = real::max(scale(row) * sums[row].relative_to(exponent + 2), least);
+            if (sums[row].value > 0)
+                weights[row] = real::greater(scale(row) * sums[row].relative_to(exponent + 2), least);
         }
         require_enough_counts<T>(rows_.deal(0, weights));
     }

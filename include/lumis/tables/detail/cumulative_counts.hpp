@@ -36,7 +36,7 @@ struct InOrder {
 
 template <std::floating_point T>
 [[nodiscard]] constexpr bool is_weight(T weight) noexcept {
-    return weight >= 0 && weight <= std::numeric_limits<T>::max();
+    return weight >= 0 && weight <= (std::numeric_limits<T>::max)();
 }
 
 // Throws std::invalid_argument naming the index and the value of the first weight that is NaN, infinite or negative.
@@ -90,7 +90,7 @@ Dealt deal_counts(std::span<const double> weights, auto start_of) {
         sum += weight;
         positive += weight > 0;
     }
-    if (!(sum > 0x1p-900 && sum <= std::numeric_limits<double>::max())) {
+    if (!(sum > 0x1p-900 && sum <= (std::numeric_limits<double>::max)())) {
         const double largest = real::largest_of(weights);
         exponent = largest > 0 ? std::ilogb(real::clamp(largest, 0x1p-1022, 0x1p1022)) : 0;
         scale = std::scalbn(1.0, -exponent);
@@ -122,7 +122,7 @@ Dealt deal_counts(std::span<const double> weights, auto start_of) {
     }
 
     // 3. One count to every positive weight, and the others in proportion to what the weights are beyond one count's worth.
-    const auto beyond = [&](double weight) { return real::max(weight * scale - worth, 0.0); };
+    const auto beyond = [&](double weight) { return real::greater(weight * scale - worth, 0.0); };
     double sum_beyond = 0;
     for (const double weight : weights) sum_beyond += beyond(weight);
     const double others = all - positive, others_of_weight = sum_beyond > 0 ? others / sum_beyond : 0;
@@ -131,7 +131,7 @@ Dealt deal_counts(std::span<const double> weights, auto start_of) {
     for (std::size_t i = 0; i < weights.size(); ++i) {
         // Behind the last positive weight none is left, whatever has been rounded on the way there.
         const double share =
-            positive > 0 && positive_before == positive ? others : real::min(before * others_of_weight, others);
+            positive > 0 && positive_before == positive ? others : real::lesser(before * others_of_weight, others);
         start_of(i) = positive_before + static_cast<std::uint32_t>(static_cast<std::int64_t>(share + 0.5));
         before += beyond(weights[i]);
         positive_before += weights[i] > 0;
@@ -194,7 +194,7 @@ template <std::floating_point T>
 // rounded across one, a point would be given the density of one cell and belong to another.
 template <std::floating_point T>
 [[nodiscard]] T clear_of_edges(T position, std::size_t n) noexcept {
-    const T margin = real::min(8 * std::numeric_limits<T>::epsilon() * static_cast<T>(n), T(0.5));
+    const T margin = real::lesser(8 * std::numeric_limits<T>::epsilon() * static_cast<T>(n), T(0.5));
     return real::clamp(position, margin, 1 - margin);
 }
 

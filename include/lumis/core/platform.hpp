@@ -1,0 +1,47 @@
+// What differs among compilers and machines is said here, and nowhere else.
+//
+//   LUMIS_HD               in front of what is compiled for a CUDA device as well as for the host; empty elsewhere
+//   LUMIS_INLINE           part of its caller, whatever a compiler thinks of its size
+//   LUMIS_NOINLINE         a call, so that what is rare does not crowd what is frequent
+//   LUMIS_COLD             the same, and rarely run
+//   LUMIS_VECTOR(bytes)    in an alias of a number's type: a vector of them; only where LUMIS_HAS_VECTORS is defined
+//   LUMIS_LIFETIME_BOUND   behind a parameter that a result refers to: clang++ warns where the result outlives it
+#pragma once
+
+#if defined(_MSVC_LANG) ? _MSVC_LANG < 202002L : __cplusplus < 202002L
+#error "Lumis is written in C++20: compile with -std=c++20 (g++, clang++, nvcc) or /std:c++20 (MSVC)"
+#endif
+
+#ifdef __CUDACC__
+#define LUMIS_HD __host__ __device__
+#else
+#define LUMIS_HD
+#endif
+
+#if defined(__GNUC__)
+#define LUMIS_INLINE [[gnu::always_inline]]
+#define LUMIS_NOINLINE [[gnu::noinline]]
+#define LUMIS_COLD [[gnu::noinline, gnu::cold]]
+#elif defined(_MSC_VER)
+#define LUMIS_INLINE [[msvc::forceinline]]
+#define LUMIS_NOINLINE [[msvc::noinline]]
+#define LUMIS_COLD [[msvc::noinline]]
+#else
+#define LUMIS_INLINE
+#define LUMIS_NOINLINE
+#define LUMIS_COLD
+#endif
+
+// The vector extensions of g++ and clang++. Device code has none.
+#if defined(__GNUC__) && !defined(__CUDA_ARCH__)
+#define LUMIS_HAS_VECTORS
+#define LUMIS_VECTOR(bytes) [[gnu::vector_size(bytes)]]
+#endif
+
+#define LUMIS_LIFETIME_BOUND
+#if defined(__has_cpp_attribute)
+#if __has_cpp_attribute(clang::lifetimebound)
+#undef LUMIS_LIFETIME_BOUND
+#define LUMIS_LIFETIME_BOUND [[clang::lifetimebound]]
+#endif
+#endif
