@@ -31,7 +31,7 @@ template <class S, class U>
 
 // The value over a divisor. A number is divided, which rounds once; other values need only scale.
 template <class Value, std::floating_point T>
-[[nodiscard]] constexpr auto quotient(const Value& value, T divisor) {
+[[nodiscard]] LUMIS_HD constexpr auto quotient(const Value& value, T divisor) {
     if constexpr (std::same_as<Value, T>) {
         return value / divisor;
     } else {
@@ -72,7 +72,7 @@ class Combination {
     static constexpr std::size_t size = 1 + sizeof...(Rest);
 
     // The effective densities factor_i p_i(x). A technique whose factor is 0 is not asked for its density.
-    [[nodiscard]] std::array<Scalar, size> densities(const Point& x) const noexcept {
+    [[nodiscard]] LUMIS_HD std::array<Scalar, size> densities(const Point& x) const noexcept {
         std::array<Scalar, size> result{};
         detail::for_each_index<size>([&](auto i) { result[i] = density<i>(x); });
         return result;
@@ -80,12 +80,12 @@ class Combination {
 
     // The weight of technique I at a point.
     template <std::size_t I>
-    [[nodiscard]] Scalar weight(const Point& x) const noexcept {
+    [[nodiscard]] LUMIS_HD Scalar weight(const Point& x) const noexcept {
         return weight_given<I>(x, [&] { return density<I>(x); });
     }
 
     template <std::size_t I>
-    [[nodiscard]] const auto& strategy() const noexcept LUMIS_LIFETIME_BOUND {
+    [[nodiscard]] LUMIS_HD const auto& strategy() const noexcept LUMIS_LIFETIME_BOUND {
         return std::get<I>(strategies_);
     }
 
@@ -93,12 +93,12 @@ class Combination {
     // Moves each strategy once, out of the Take or Choose that holds it: some are large, and a renderer composes an
     // estimator at every point that it lights.
     template <class... Techniques>
-    constexpr Combination(const H& heuristic, std::array<Scalar, size> factors, Techniques&&... techniques)
+    LUMIS_HD constexpr Combination(const H& heuristic, std::array<Scalar, size> factors, Techniques&&... techniques)
         : heuristic_{heuristic}, factors_{factors}, strategies_{std::forward<Techniques>(techniques).strategy...} {}
 
     // What one sample of technique I adds to an estimate of the integral of f: weight f / (factor_I pdf).
     template <std::size_t I, class F, class U>
-    [[nodiscard]] auto draw(F& f, U& uniforms) const {
+    [[nodiscard]] LUMIS_HD auto draw(F& f, U& uniforms) const {
         using S = Nth<I>;
         if constexpr (Takes<F, Point, is_delta<I>> && detail::SamplesPoints<S>) {
             return contribution<I>(f, strategy<I>().sample_point(detail::next_for<S>(uniforms)));
@@ -110,13 +110,13 @@ class Combination {
 
     // The same, converted to Value, the type of technique 0's.
     template <class Value, std::size_t I, class F, class U>
-    [[nodiscard]] Value draw_as(F& f, U& uniforms) const {
+    [[nodiscard]] LUMIS_HD Value draw_as(F& f, U& uniforms) const {
         static_assert(std::convertible_to<decltype(draw<I>(f, uniforms)), Value>,
                       "an integrand returns one type, whichever technique drew its point");
         return Value(draw<I>(f, uniforms));
     }
 
-    [[nodiscard]] constexpr Scalar factor(std::size_t i) const noexcept { return factors_[i]; }
+    [[nodiscard]] LUMIS_HD constexpr Scalar factor(std::size_t i) const noexcept { return factors_[i]; }
 
   private:
     template <std::size_t I>
@@ -155,7 +155,7 @@ class Combination {
     // A sample of technique I as an integrand sees it. Where lights are combined it has the distance to the nearest of
     // them, whichever technique drew it and whatever the counts: the integrand is the same function for all.
     template <std::size_t I, bool only_point, class Drawn>
-    [[nodiscard]] decltype(auto) seen(const Drawn& sample) const noexcept {
+    [[nodiscard]] LUMIS_HD decltype(auto) seen(const Drawn& sample) const noexcept {
         constexpr bool is_delta_light = is_delta<I> && DrawsDistance<Nth<I>>;
         if constexpr (only_point || size == 1 || is_delta_light) {
             return (sample);
@@ -170,7 +170,7 @@ class Combination {
     }
 
     template <std::size_t I>
-    [[nodiscard]] Scalar density(const Point& x) const noexcept {
+    [[nodiscard]] LUMIS_HD Scalar density(const Point& x) const noexcept {
         if constexpr (is_delta<I>) {
             return 0;
         } else {
@@ -180,7 +180,7 @@ class Combination {
 
     // The weight of technique I at x. own() is technique I's effective density there: a caller that has drawn x knows it.
     template <std::size_t I, class Own>
-    [[nodiscard]] Scalar weight_given(const Point& x, Own own) const noexcept {
+    [[nodiscard]] LUMIS_HD Scalar weight_given(const Point& x, Own own) const noexcept {
         if constexpr (number_of_smooth == 1 && !is_delta<I>) {
             return own() > 0 ? Scalar(1) : Scalar(0);
         } else if constexpr (PointHeuristic<H, Point>) {

@@ -49,7 +49,7 @@ template <std::floating_point T, std::size_t N>
 }
 
 template <Real R, std::size_t N>
-[[nodiscard]] R largest_of(std::span<const R, N> densities) noexcept {
+[[nodiscard]] LUMIS_HD R largest_of(std::span<const R, N> densities) noexcept {
     R largest = scalar_of<R>(0);
     for_each_density(densities, [&](R density) { largest = real::greater(largest, density); });
     return largest;
@@ -91,7 +91,7 @@ template <Real R, std::size_t N, class Term>
 
 // The power of two that brings a positive number near 1, or as near as a normal power of two can.
 template <std::floating_point T>
-[[nodiscard]] T scale_to_one(T x) noexcept {
+[[nodiscard]] LUMIS_HD T scale_to_one(T x) noexcept {
     constexpr int limit = std::numeric_limits<T>::max_exponent - 2;  // 2^limit and 2^-limit are both normal numbers
     const int exponent = std::ilogb(x);
     return std::ldexp(T(1), exponent < -limit ? limit : exponent > limit ? -limit : -exponent);
@@ -168,7 +168,7 @@ template <std::floating_point T, class Densities>
 
 // 1 for a positive finite density. 0 and Inf stay as they are: the policy decides on Inf.
 template <Real R>
-[[nodiscard]] R one_if_positive(R p) noexcept {
+[[nodiscard]] LUMIS_HD R one_if_positive(R p) noexcept {
     return real::select(p > 0 && p <= (std::numeric_limits<R>::max)(), R(scalar_of<R>(1)), p);
 }
 
@@ -199,7 +199,7 @@ struct BalanceHeuristic {
     static constexpr bool is_positive = true;
 
     template <Real R, std::size_t N>
-    [[nodiscard]] R operator()(std::size_t own, std::span<const R, N> densities) const noexcept {
+    [[nodiscard]] LUMIS_HD R operator()(std::size_t own, std::span<const R, N> densities) const noexcept {
         return detail::weight_by_shares(*this, own, densities, [](R p, scalar_of<R> scale) { return R(p * scale); });
     }
 };
@@ -212,7 +212,7 @@ struct PowerHeuristic {
     double beta = 2;
 
     template <Real R, std::size_t N>
-    [[nodiscard]] R operator()(std::size_t own, std::span<const R, N> densities) const noexcept {
+    [[nodiscard]] LUMIS_HD R operator()(std::size_t own, std::span<const R, N> densities) const noexcept {
         using T = scalar_of<R>;
         LUMIS_ASSERT(beta >= 1);
         if (beta == 2) [[likely]]
@@ -231,7 +231,7 @@ struct PowerHeuristic {
 // All weight to the largest density; several that are equal share it, so that no order of the techniques matters.
 struct MaximumHeuristic {
     template <Real R, std::size_t N>
-    [[nodiscard]] R operator()(std::size_t own, std::span<const R, N> densities) const noexcept {
+    [[nodiscard]] LUMIS_HD R operator()(std::size_t own, std::span<const R, N> densities) const noexcept {
         using T = scalar_of<R>;
         const R largest = detail::largest_of(densities);
         return detail::weight_by_shares(*this, own, densities, [=](R p, T /*scale*/) {
@@ -245,7 +245,7 @@ struct CutoffHeuristic {
     double alpha = 0.1;
 
     template <Real R, std::size_t N>
-    [[nodiscard]] R operator()(std::size_t own, std::span<const R, N> densities) const noexcept {
+    [[nodiscard]] LUMIS_HD R operator()(std::size_t own, std::span<const R, N> densities) const noexcept {
         using T = scalar_of<R>;
         LUMIS_ASSERT(alpha >= 0 && alpha <= 1);
         // Above 1 no technique would have a weight, not even the only one that drew a point.
@@ -258,7 +258,7 @@ struct CutoffHeuristic {
 // The same weight to every technique that could have drawn the point: the naive average, which MIS replaces.
 struct EqualWeights {
     template <Real R, std::size_t N>
-    [[nodiscard]] R operator()(std::size_t own, std::span<const R, N> densities) const noexcept {
+    [[nodiscard]] LUMIS_HD R operator()(std::size_t own, std::span<const R, N> densities) const noexcept {
         return detail::weight_by_shares(*this, own, densities,
                                         [](R p, scalar_of<R> /*scale*/) { return detail::one_if_positive(p); });
     }
@@ -270,7 +270,7 @@ struct PartitionWeights {
     Owner owner;
 
     template <class Point>
-    [[nodiscard]] bool owns(std::size_t own, const Point& x) const {
+    [[nodiscard]] LUMIS_HD bool owns(std::size_t own, const Point& x) const {
         return static_cast<std::size_t>(owner(x)) == own;
     }
 };
@@ -296,7 +296,7 @@ template <class H, Real R, std::size_t N>
 // The weight of one technique from all effective densities, for hundreds of techniques known at run time.
 template <class H, FloatOrDouble T>
     requires DensityHeuristic<H, T>
-[[nodiscard]] T mis_weight(const H& heuristic, std::span<const T> densities, std::size_t own) noexcept {
+[[nodiscard]] LUMIS_HD T mis_weight(const H& heuristic, std::span<const T> densities, std::size_t own) noexcept {
     return static_cast<T>(heuristic(own, densities));
 }
 
@@ -304,7 +304,7 @@ template <class H, FloatOrDouble T>
 // what a path tracer needs at a hit.
 template <class H, FloatOrDouble T>
     requires DensityHeuristic<H, T>
-[[nodiscard]] T mis_weight(const H& heuristic, T own, std::convertible_to<T> auto... others) noexcept {
+[[nodiscard]] LUMIS_HD T mis_weight(const H& heuristic, T own, std::convertible_to<T> auto... others) noexcept {
     const std::array densities{own, static_cast<T>(others)...};
     return detail::weigh(heuristic, 0, std::span{densities});
 }

@@ -24,11 +24,11 @@ class InFrame {
 
     static_assert(std::same_as<typename Local::Point, Point>, "only strategies over directions have a frame");
 
-    constexpr InFrame(const Frame<Scalar>& frame, HeldStrategy local)
+    LUMIS_HD constexpr InFrame(const Frame<Scalar>& frame, HeldStrategy local)
         : frame_{frame}, local_{std::forward<HeldStrategy>(local)} {}
 
     template <RealOf<Scalar> R = Scalar>
-    [[nodiscard]] auto sample(glm::vec<dimensions, R> u) const noexcept {
+    [[nodiscard]] LUMIS_HD auto sample(glm::vec<dimensions, R> u) const noexcept {
         auto drawn = detail::as_promised<Direction<R>, R>(local_.sample(u));
         const Direction<R> w = frame_.to_world(drawn.value);
         const auto finite = all_finite(w);
@@ -40,16 +40,16 @@ class InFrame {
     }
 
     template <RealOf<Scalar> R = Scalar>
-    [[nodiscard]] R pdf(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD R pdf(const Direction<R>& w) const noexcept {
         return static_cast<R>(local_.pdf(frame_.to_local(w)));
     }
 
     template <RealOf<Scalar> R = Scalar>
-    [[nodiscard]] R distance_along(const Direction<R>& w) const noexcept requires LightStrategy<Local> {
+    [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept requires LightStrategy<Local> {
         return local_.distance_along(frame_.to_local(w));
     }
 
-    [[nodiscard]] UniformsOf<Local> invert(const Point& w) const noexcept requires InvertibleStrategy<Local> {
+    [[nodiscard]] LUMIS_HD UniformsOf<Local> invert(const Point& w) const noexcept requires InvertibleStrategy<Local> {
         return local_.invert(frame_.to_local(w));
     }
 
@@ -60,12 +60,12 @@ class InFrame {
 
 template <class S>
     requires Strategy<std::remove_cvref_t<S>>
-[[nodiscard]] constexpr auto in_frame(const Frame<typename std::remove_cvref_t<S>::Scalar>& frame, S&& local) {
+[[nodiscard]] LUMIS_HD constexpr auto in_frame(const Frame<typename std::remove_cvref_t<S>::Scalar>& frame, S&& local) {
     return InFrame<Held<S>>{frame, std::forward<S>(local)};
 }
 template <class S>
     requires Strategy<S> && HeldByReference<S&>
-[[nodiscard]] constexpr auto in_frame(const Frame<typename S::Scalar>& frame, S& local LUMIS_LIFETIME_BOUND) {
+[[nodiscard]] LUMIS_HD constexpr auto in_frame(const Frame<typename S::Scalar>& frame, S& local LUMIS_LIFETIME_BOUND) {
     return InFrame<Held<S&>>{frame, local};
 }
 

@@ -1,6 +1,7 @@
 // What an estimator asks of an integrand: it takes a point or a whole sample, and returns something that can be summed.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/sample.hpp"
 #include "lumis/core/strategy.hpp"
 
@@ -31,7 +32,7 @@ concept AddsUp = std::default_initializable<Value> && requires(const Value value
 namespace detail {
 
 template <bool is_delta, class F, class Drawn>
-[[nodiscard]] constexpr decltype(auto) evaluate(F& f, const Drawn& sample) {
+[[nodiscard]] LUMIS_HD constexpr decltype(auto) evaluate(F& f, const Drawn& sample) {
     constexpr bool takes_point = Takes<F, decltype(sample.value), is_delta>;
     if constexpr (is_delta && takes_point) {
         return f(sample.value, delta);

@@ -44,19 +44,22 @@ class Mixture {
 
     // Parts of probability 0 are left out. Where the probabilities sum to less than 1, the rest draws nothing; they may not
     // sum to more.
-    explicit constexpr Mixture(Choose<First> first LUMIS_LIFETIME_BOUND, Choose<Rest>... rest LUMIS_LIFETIME_BOUND)
+    LUMIS_HD explicit constexpr Mixture(Choose<First> first LUMIS_LIFETIME_BOUND,
+                                        Choose<Rest>... rest LUMIS_LIFETIME_BOUND)
         : probabilities_{detail::selectable(std::array<Scalar, size>{first.probability, rest.probability...})},
           parts_{std::forward<First>(first.strategy), std::forward<Rest>(rest.strategy)...} {}
 
     // u.x selects the part, which gets the other numbers: stretching u.x for it would leave a rare part few bits.
-    [[nodiscard]] SampleType sample(glm::vec<dimensions, Scalar> u) const noexcept { return draw<SampleType>(u); }
+    [[nodiscard]] LUMIS_HD SampleType sample(glm::vec<dimensions, Scalar> u) const noexcept {
+        return draw<SampleType>(u);
+    }
 
     // The same but for the distance, which asks every light for its own.
-    [[nodiscard]] Sample<Point, Scalar> sample_point(glm::vec<dimensions, Scalar> u) const noexcept {
+    [[nodiscard]] LUMIS_HD Sample<Point, Scalar> sample_point(glm::vec<dimensions, Scalar> u) const noexcept {
         return draw<Sample<Point, Scalar>>(u);
     }
 
-    [[nodiscard]] Scalar pdf(const Point& x) const noexcept {
+    [[nodiscard]] LUMIS_HD Scalar pdf(const Point& x) const noexcept {
         Scalar sum = 0;
         detail::for_each_index<size>([&](auto i) {
             if (probabilities_[i] > 0) sum += probabilities_[i] * static_cast<Scalar>(std::get<i>(parts_).pdf(x));
@@ -65,13 +68,13 @@ class Mixture {
     }
 
     // To the nearest light, parts of probability 0 included; infinity where there is none.
-    [[nodiscard]] Scalar distance_along(const Point& w) const noexcept requires knows_nearest {
+    [[nodiscard]] LUMIS_HD Scalar distance_along(const Point& w) const noexcept requires knows_nearest {
         return detail::nearest_along(parts_, w, std::numeric_limits<Scalar>::infinity());
     }
 
   private:
     template <int N>
-    static glm::vec<N, Scalar> without_first(glm::vec<dimensions, Scalar> u) noexcept {
+    LUMIS_HD static glm::vec<N, Scalar> without_first(glm::vec<dimensions, Scalar> u) noexcept {
         glm::vec<N, Scalar> rest;
         for (int i = 0; i < N; ++i) rest[i] = u[i + 1];
         return rest;
@@ -79,7 +82,7 @@ class Mixture {
 
     // Result: with a distance, or without.
     template <class Result>
-    [[nodiscard]] Result draw(glm::vec<dimensions, Scalar> u) const noexcept {
+    [[nodiscard]] LUMIS_HD Result draw(glm::vec<dimensions, Scalar> u) const noexcept {
         Result result{};
         Scalar remaining = u.x;
         bool selected = false;
@@ -94,7 +97,7 @@ class Mixture {
     }
 
     template <std::size_t I, class Result>
-    [[nodiscard]] Result draw_part(glm::vec<dimensions, Scalar> u) const noexcept {
+    [[nodiscard]] LUMIS_HD Result draw_part(glm::vec<dimensions, Scalar> u) const noexcept {
         constexpr bool with_distance = std::same_as<Result, LightSample<Point, Scalar>>;
         using Part = std::remove_cvref_t<std::tuple_element_t<I, std::tuple<First, Rest...>>>;
         const Part& part = std::get<I>(parts_);

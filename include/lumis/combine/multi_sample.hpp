@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lumis/combine/combination.hpp"
+#include "lumis/core/platform.hpp"
 
 namespace lumis {
 
@@ -12,7 +13,7 @@ class MultiSample : public Combination<H, S...> {
   public:
     using typename Base::Scalar;
 
-    explicit constexpr MultiSample(const H& heuristic, Take<S>&&... techniques)
+    LUMIS_HD explicit constexpr MultiSample(const H& heuristic, Take<S>&&... techniques)
         : Base{heuristic, {static_cast<Scalar>(techniques.count)...}, std::move(techniques)...},
           counts_{techniques.count...} {}
 
@@ -20,7 +21,7 @@ class MultiSample : public Combination<H, S...> {
     // scales by Scalar, and whose value-initialised object is zero. It may take the whole sample instead, f(sample),
     // if it cannot be called with the point alone; a delta strategy calls f(x, lumis::delta), with weight 1.
     template <class F, UniformSource<Scalar> U>
-    [[nodiscard]] auto estimate(F&& f, U&& uniforms) const {
+    [[nodiscard]] LUMIS_HD auto estimate(F&& f, U&& uniforms) const {
         using Value = decltype(this->template draw<0>(f, uniforms));
         Value sum{};
         detail::for_each_index<Base::size>([&](auto i) {
@@ -39,8 +40,8 @@ class MultiSample : public Combination<H, S...> {
 // heuristic: BalanceHeuristic{}, PowerHeuristic{}, or another Heuristic.
 template <class H, class First, class... Rest>
     requires HeuristicFor<H, First, Rest...> && Composable<First, Rest...>
-[[nodiscard]] constexpr auto multi_sample(const H& heuristic, Take<First> first LUMIS_LIFETIME_BOUND,
-                                          Take<Rest>... rest LUMIS_LIFETIME_BOUND) {
+[[nodiscard]] LUMIS_HD constexpr auto multi_sample(const H& heuristic, Take<First> first LUMIS_LIFETIME_BOUND,
+                                                   Take<Rest>... rest LUMIS_LIFETIME_BOUND) {
     return MultiSample<H, First, Rest...>{heuristic, std::move(first), std::move(rest)...};
 }
 

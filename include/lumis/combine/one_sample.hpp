@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lumis/combine/combination.hpp"
+#include "lumis/core/platform.hpp"
 
 namespace lumis {
 
@@ -12,14 +13,14 @@ class OneSample : public Combination<H, S...> {
   public:
     using typename Base::Scalar;
 
-    explicit constexpr OneSample(const H& heuristic, Choose<S>&&... techniques)
+    LUMIS_HD explicit constexpr OneSample(const H& heuristic, Choose<S>&&... techniques)
         : Base{heuristic, detail::selectable(std::array<Scalar, sizeof...(S)>{techniques.probability...}),
                std::move(techniques)...} {}
 
     // An unbiased estimate of the integral of f, which is called as by MultiSample::estimate. Spends one uniform on the
     // selection, none if the only technique is certain.
     template <class F, UniformSource<Scalar> U>
-    [[nodiscard]] auto estimate(F&& f, U&& uniforms) const {
+    [[nodiscard]] LUMIS_HD auto estimate(F&& f, U&& uniforms) const {
         using Value = decltype(this->template draw<0>(f, uniforms));
         Value result{};
         const bool certain = Base::size == 1 && this->factor(0) >= 1;
@@ -39,8 +40,8 @@ class OneSample : public Combination<H, S...> {
 // heuristic: BalanceHeuristic{}, PowerHeuristic{}, or another Heuristic.
 template <class H, class First, class... Rest>
     requires HeuristicFor<H, First, Rest...> && Composable<First, Rest...>
-[[nodiscard]] constexpr auto one_sample(const H& heuristic, Choose<First> first LUMIS_LIFETIME_BOUND,
-                                        Choose<Rest>... rest LUMIS_LIFETIME_BOUND) {
+[[nodiscard]] LUMIS_HD constexpr auto one_sample(const H& heuristic, Choose<First> first LUMIS_LIFETIME_BOUND,
+                                                 Choose<Rest>... rest LUMIS_LIFETIME_BOUND) {
     return OneSample<H, First, Rest...>{heuristic, std::move(first), std::move(rest)...};
 }
 

@@ -27,7 +27,7 @@ namespace detail {
 
 // A count of samples as an int, which counts any number of them that will ever be taken.
 template <std::integral Count>
-[[nodiscard]] constexpr int checked_count(Count count) noexcept {
+[[nodiscard]] LUMIS_HD constexpr int checked_count(Count count) noexcept {
     LUMIS_ASSERT(count >= 0 && std::in_range<int>(count));
     return static_cast<int>(count);
 }
@@ -52,16 +52,16 @@ struct Choose {
 // strategy is used once. Either must outlive the technique and what it is combined to.
 template <std::integral Count, class S>
     requires Strategy<std::remove_cvref_t<S>>
-[[nodiscard]] constexpr auto take(Count count, S&& strategy) {
+[[nodiscard]] LUMIS_HD constexpr auto take(Count count, S&& strategy) {
     return Take<Held<S>>{detail::checked_count(count), std::forward<S>(strategy)};
 }
 template <std::integral Count, class S>
     requires Strategy<S> && HeldByReference<S&>
-[[nodiscard]] constexpr auto take(Count count, S& strategy LUMIS_LIFETIME_BOUND) {
+[[nodiscard]] LUMIS_HD constexpr auto take(Count count, S& strategy LUMIS_LIFETIME_BOUND) {
     return Take<Held<S&>>{detail::checked_count(count), strategy};
 }
 template <std::integral Count, StrategyReference W>
-[[nodiscard]] constexpr auto take(Count count, W wrapper) {
+[[nodiscard]] LUMIS_HD constexpr auto take(Count count, W wrapper) {
     return Take<const typename W::type&>{detail::checked_count(count), wrapper.get()};
 }
 
@@ -69,17 +69,18 @@ template <std::integral Count, StrategyReference W>
 // sum to less than 1, the rest draws nothing; they may not sum to more. Kept as by take.
 template <class S>
     requires Strategy<std::remove_cvref_t<S>>
-[[nodiscard]] constexpr auto choose(std::convertible_to<double> auto probability, S&& strategy) {
+[[nodiscard]] LUMIS_HD constexpr auto choose(std::convertible_to<double> auto probability, S&& strategy) {
     using Scalar = typename std::remove_cvref_t<S>::Scalar;
     return Choose<Held<S>>{static_cast<Scalar>(probability), std::forward<S>(strategy)};
 }
 template <class S>
     requires Strategy<S> && HeldByReference<S&>
-[[nodiscard]] constexpr auto choose(std::convertible_to<double> auto probability, S& strategy LUMIS_LIFETIME_BOUND) {
+[[nodiscard]] LUMIS_HD constexpr auto choose(std::convertible_to<double> auto probability,
+                                             S& strategy LUMIS_LIFETIME_BOUND) {
     return Choose<Held<S&>>{static_cast<typename S::Scalar>(probability), strategy};
 }
 template <StrategyReference W>
-[[nodiscard]] constexpr auto choose(std::convertible_to<double> auto probability, W wrapper) {
+[[nodiscard]] LUMIS_HD constexpr auto choose(std::convertible_to<double> auto probability, W wrapper) {
     return Choose<const typename W::type&>{static_cast<typename W::type::Scalar>(probability), wrapper.get()};
 }
 
@@ -88,7 +89,7 @@ namespace detail {
 // Probabilities by which one can select, from what a caller gave. They are asserted to be those already. Else a negative
 // one and a NaN count as 0, and what is beyond a sum of 1 is cut off, so that each is selected as often as its density says.
 template <std::floating_point T, std::size_t N>
-[[nodiscard]] constexpr std::array<T, N> selectable(std::array<T, N> probabilities) noexcept {
+[[nodiscard]] LUMIS_HD constexpr std::array<T, N> selectable(std::array<T, N> probabilities) noexcept {
     constexpr T one =
         1 + static_cast<T>(N) * std::numeric_limits<T>::epsilon();  // those of ten equal parts sum to 1 + epsilon
     T sum = 0;

@@ -152,7 +152,7 @@ template <Real R>
 
 // acos(x) in radians, for x in [-1, 1], within 1.75 epsilon, relative.
 template <Real R>
-[[nodiscard]] R acos(R x) noexcept {
+[[nodiscard]] LUMIS_HD R acos(R x) noexcept {
     using T = scalar_of<R>;
     const R ax = abs(rounded(x));
     // Beyond 1/2 by half the angle, which has the sine sqrt((1 - |x|) / 2).

@@ -31,7 +31,8 @@ class Frame {
 
     // Three vectors as they are: for anisotropic materials. They are asserted to be orthonormal; else the nearest frame
     // with this normal, and this tangent's plane, is made of them (Gram and Schmidt).
-    constexpr Frame(const Direction<T>& tangent, const Direction<T>& bitangent, const Direction<T>& normal) noexcept
+    LUMIS_HD constexpr Frame(const Direction<T>& tangent, const Direction<T>& bitangent,
+                             const Direction<T>& normal) noexcept
         : tangent_{tangent}, bitangent_{bitangent}, normal_{normal} {
         LUMIS_ASSERT(detail::are_orthonormal(tangent, bitangent, normal));
         if (!detail::are_orthonormal(tangent, bitangent, normal)) [[unlikely]]
@@ -39,18 +40,18 @@ class Frame {
     }
 
     template <RealOf<T> R = T>
-    [[nodiscard]] constexpr Direction<R> to_world(const Direction<R>& v) const noexcept {
+    [[nodiscard]] LUMIS_HD constexpr Direction<R> to_world(const Direction<R>& v) const noexcept {
         return v.x * Direction<R>(tangent_) + v.y * Direction<R>(bitangent_) + v.z * Direction<R>(normal_);
     }
     template <RealOf<T> R = T>
-    [[nodiscard]] constexpr Direction<R> to_local(const Direction<R>& v) const noexcept {
+    [[nodiscard]] LUMIS_HD constexpr Direction<R> to_local(const Direction<R>& v) const noexcept {
         return {glm::dot(v, Direction<R>(tangent_)), glm::dot(v, Direction<R>(bitangent_)),
                 glm::dot(v, Direction<R>(normal_))};
     }
 
-    [[nodiscard]] constexpr const Direction<T>& tangent() const noexcept { return tangent_; }
-    [[nodiscard]] constexpr const Direction<T>& bitangent() const noexcept { return bitangent_; }
-    [[nodiscard]] constexpr const Direction<T>& normal() const noexcept { return normal_; }
+    [[nodiscard]] LUMIS_HD constexpr const Direction<T>& tangent() const noexcept { return tangent_; }
+    [[nodiscard]] LUMIS_HD constexpr const Direction<T>& bitangent() const noexcept { return bitangent_; }
+    [[nodiscard]] LUMIS_HD constexpr const Direction<T>& normal() const noexcept { return normal_; }
 
   private:
     // A vector that has no direction becomes this, of which strategies draw nothing.
@@ -73,7 +74,7 @@ class Frame {
         return frame;
     }
 
-    static Direction<T> without_normal(const Direction<T>& normal, const Direction<T>& v) noexcept {
+    LUMIS_HD static Direction<T> without_normal(const Direction<T>& normal, const Direction<T>& v) noexcept {
         return v - detail::dot(v, normal) * normal;
     }
 

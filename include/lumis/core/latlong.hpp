@@ -19,8 +19,8 @@ template <Real R>
 
 // The direction at u in [0, 1] whose angle to a pole has the given versine (1 - cos) in [0, 2]. pole: 1 for +y, -1 for -y.
 template <Real R>
-[[nodiscard]] Direction<R> direction_from_latlong(R u, std::type_identity_t<R> versine,
-                                                  std::type_identity_t<R> pole) noexcept {
+[[nodiscard]] LUMIS_HD Direction<R> direction_from_latlong(R u, std::type_identity_t<R> versine,
+                                                           std::type_identity_t<R> pole) noexcept {
     const R sin_theta = sine_of_versine(versine);
     const auto circle = unit_circle(u);
     return {-sin_theta * circle.x, pole * (1 - versine), -sin_theta * circle.y};

@@ -1,6 +1,7 @@
 // Measures: what a density is a density of. Each is a type, so that two densities of different kinds cannot be mixed.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/sample.hpp"
 
 namespace lumis {
@@ -16,7 +17,7 @@ struct Counting {};    // of indices: the density is a probability
 // distance to the surface point and the cosine there between the surface normal and the direction (Veach 1997, eq. 8.2).
 // Yields 0 where no density can be formed: edge-on, at distance 0, for a surface without area.
 template <Real R>
-[[nodiscard]] R area_to_solid_angle(scalar_of<R> pdf_area, R distance, R cos_light) noexcept {
+[[nodiscard]] LUMIS_HD R area_to_solid_angle(scalar_of<R> pdf_area, R distance, R cos_light) noexcept {
     const R cosine = real::abs(cos_light);
     return density_or_zero(real::quotient_where(cosine > 0, R(pdf_area * distance * distance), cosine));
 }

@@ -1,6 +1,7 @@
 // What differs among compilers and machines is said here, and nowhere else.
 //
-//   LUMIS_HD               in front of what is compiled for a CUDA device as well as for the host; empty elsewhere
+//   LUMIS_HD               in front of a function that is compiled for CUDA devices as well as for the host. The next three
+//                          contain it
 //   LUMIS_INLINE           part of its caller, whatever a compiler thinks of its size
 //   LUMIS_NOINLINE         a call, so that what is rare does not crowd what is frequent
 //   LUMIS_COLD             the same, and rarely run
@@ -19,17 +20,17 @@
 #endif
 
 #if defined(__GNUC__)
-#define LUMIS_INLINE [[gnu::always_inline]]
-#define LUMIS_NOINLINE [[gnu::noinline]]
-#define LUMIS_COLD [[gnu::noinline, gnu::cold]]
+#define LUMIS_INLINE [[gnu::always_inline]] LUMIS_HD
+#define LUMIS_NOINLINE [[gnu::noinline]] LUMIS_HD
+#define LUMIS_COLD [[gnu::noinline, gnu::cold]] LUMIS_HD
 #elif defined(_MSC_VER)
-#define LUMIS_INLINE [[msvc::forceinline]]
-#define LUMIS_NOINLINE [[msvc::noinline]]
-#define LUMIS_COLD [[msvc::noinline]]
+#define LUMIS_INLINE [[msvc::forceinline]] LUMIS_HD
+#define LUMIS_NOINLINE [[msvc::noinline]] LUMIS_HD
+#define LUMIS_COLD [[msvc::noinline]] LUMIS_HD
 #else
-#define LUMIS_INLINE
-#define LUMIS_NOINLINE
-#define LUMIS_COLD
+#define LUMIS_INLINE LUMIS_HD
+#define LUMIS_NOINLINE LUMIS_HD
+#define LUMIS_COLD LUMIS_HD
 #endif
 
 // The vector extensions of g++ and clang++. Device code has none.

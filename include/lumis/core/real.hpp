@@ -161,7 +161,7 @@ template <Real R>
 }
 
 template <Real R>
-[[nodiscard]] constexpr R abs(R x) noexcept {
+[[nodiscard]] LUMIS_HD constexpr R abs(R x) noexcept {
     if constexpr (std::floating_point<R>) {
         if (std::is_constant_evaluated()) return x < 0 ? -x : x;  // std::abs is not for constants before C++23
     }
@@ -170,14 +170,14 @@ template <Real R>
 }
 
 template <Real R>
-[[nodiscard]] R copysign(R magnitude, R sign) noexcept {
+[[nodiscard]] LUMIS_HD R copysign(R magnitude, R sign) noexcept {
     using std::copysign;
     return copysign(magnitude, sign);
 }
 
 // a b + c in one expression, which a compiler may fuse.
 template <Real R>
-[[nodiscard]] constexpr R mul_add(R a, std::type_identity_t<R> b, std::type_identity_t<R> c) noexcept {
+[[nodiscard]] LUMIS_HD constexpr R mul_add(R a, std::type_identity_t<R> b, std::type_identity_t<R> c) noexcept {
     if constexpr (std::floating_point<R>) {
         return a * b + c;
     } else {
@@ -187,7 +187,7 @@ template <Real R>
 
 // a where the condition holds, else b.
 template <Real R>
-[[nodiscard]] constexpr R select(const MaskOf<R>& condition, R a, std::type_identity_t<R> b) noexcept {
+[[nodiscard]] LUMIS_HD constexpr R select(const MaskOf<R>& condition, R a, std::type_identity_t<R> b) noexcept {
     if constexpr (std::floating_point<R>) {
         return condition ? a : b;
     } else {
@@ -196,8 +196,8 @@ template <Real R>
 }
 
 template <Real R>
-[[nodiscard]] constexpr glm::vec<3, R> select(const MaskOf<R>& condition, const glm::vec<3, R>& a,
-                                              const glm::vec<3, R>& b) noexcept {
+[[nodiscard]] LUMIS_HD constexpr glm::vec<3, R> select(const MaskOf<R>& condition, const glm::vec<3, R>& a,
+                                                       const glm::vec<3, R>& b) noexcept {
     return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z)};
 }
 
@@ -256,7 +256,7 @@ template <Real R>
 
 // a() where the condition holds, else b(); a number asks for just one of them.
 template <class Condition, class A, class B>
-[[nodiscard]] constexpr auto either(const Condition& condition, A a, B b) noexcept {
+[[nodiscard]] LUMIS_HD constexpr auto either(const Condition& condition, A a, B b) noexcept {
     if constexpr (std::same_as<Condition, bool>) {
         return condition ? a() : b();
     } else {
@@ -266,32 +266,32 @@ template <class Condition, class A, class B>
 
 // As std::min and std::max: a NaN in b yields a.
 template <Real R>
-[[nodiscard]] constexpr R lesser(R a, std::type_identity_t<R> b) noexcept {
+[[nodiscard]] LUMIS_HD constexpr R lesser(R a, std::type_identity_t<R> b) noexcept {
     return select(b < a, b, a);
 }
 template <Real R>
-[[nodiscard]] constexpr R greater(R a, std::type_identity_t<R> b) noexcept {
+[[nodiscard]] LUMIS_HD constexpr R greater(R a, std::type_identity_t<R> b) noexcept {
     return select(a < b, b, a);
 }
 
 template <Real R>
-[[nodiscard]] constexpr R clamp(R x, std::type_identity_t<R> low, std::type_identity_t<R> high) noexcept {
+[[nodiscard]] LUMIS_HD constexpr R clamp(R x, std::type_identity_t<R> low, std::type_identity_t<R> high) noexcept {
     return greater(lesser(x, high), low);
 }
 
 // The largest of a range of numbers, of which there is at least one.
-[[nodiscard]] constexpr auto largest_of(const auto& numbers) noexcept {
+[[nodiscard]] LUMIS_HD constexpr auto largest_of(const auto& numbers) noexcept {
     auto largest = *numbers.begin();
     for (const auto number : numbers) largest = largest < number ? number : largest;
     return largest;
 }
 
 // Whether a condition holds in every lane.
-[[nodiscard]] constexpr bool all(bool condition) noexcept {
+[[nodiscard]] LUMIS_HD constexpr bool all(bool condition) noexcept {
     return condition;
 }
 template <class Mask>
-[[nodiscard]] constexpr bool all(const Mask& condition) noexcept {
+[[nodiscard]] LUMIS_HD constexpr bool all(const Mask& condition) noexcept {
     return condition.all();
 }
 

@@ -3,6 +3,7 @@
 
 #include "lumis/core/assert.hpp"
 #include "lumis/core/detail/arguments.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 
 #include <glm/vec2.hpp>
@@ -34,19 +35,19 @@ struct LightSample {
 
 // The policy for densities in one line: a positive finite number stays; anything else, NaN too, means "nothing drawn".
 template <Real R>
-[[nodiscard]] constexpr R density_or_zero(R pdf) noexcept {
+[[nodiscard]] LUMIS_HD constexpr R density_or_zero(R pdf) noexcept {
     return real::select(pdf > 0 && pdf <= (std::numeric_limits<R>::max)(), pdf, 0);
 }
 
 // Whether a squared length is a normal number, neither 0 nor subnormal nor infinite: then the vector can be normalised.
 template <Real R>
-[[nodiscard]] constexpr MaskOf<R> is_squared_length(R squared) noexcept {
+[[nodiscard]] LUMIS_HD constexpr MaskOf<R> is_squared_length(R squared) noexcept {
     return squared >= (std::numeric_limits<R>::min)() && squared <= (std::numeric_limits<R>::max)();
 }
 
 // Whether no component is NaN or infinite, nor so large that their sum is.
 template <Real R>
-[[nodiscard]] constexpr MaskOf<R> all_finite(const glm::vec<3, R>& v) noexcept {
+[[nodiscard]] LUMIS_HD constexpr MaskOf<R> all_finite(const glm::vec<3, R>& v) noexcept {
     return real::abs(v.x) + real::abs(v.y) + real::abs(v.z) <= (std::numeric_limits<R>::max)();
 }
 
@@ -54,7 +55,7 @@ template <Real R>
 // square is out of range), becomes the zero vector, from which nothing is drawn. It is asserted to be a unit vector; a
 // longer or shorter one is scaled to one.
 template <std::floating_point T>
-[[nodiscard]] constexpr Direction<T> above_horizon_or_zero(const Direction<T>& wo) noexcept {
+[[nodiscard]] LUMIS_HD constexpr Direction<T> above_horizon_or_zero(const Direction<T>& wo) noexcept {
     LUMIS_ASSERT(detail::is_unit(wo));
     const Direction<T> unit = detail::unit_or(wo, T(0));
     return unit.z > 0 ? unit : Direction<T>{T(0)};

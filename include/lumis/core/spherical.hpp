@@ -16,7 +16,7 @@ template <Real R>
 
 // 1 - cos(theta) of a unit vector about +z, with all its digits near the pole.
 template <Real R>
-[[nodiscard]] R versine_of(const Direction<R>& w) noexcept {
+[[nodiscard]] LUMIS_HD R versine_of(const Direction<R>& w) noexcept {
     const auto upper = w.z > 0;
     return real::select(upper, real::divide(R(w.x * w.x + w.y * w.y), real::divisor_where(upper, R(1 + w.z))), 1 - w.z);
 }

@@ -35,7 +35,7 @@ inline constexpr int uniform_bits = std::numeric_limits<T>::digits;
 
 // The lattice index of u; u == 1, which no source of ours yields, counts as the last one.
 template <FloatOrDouble T>
-[[nodiscard]] constexpr std::uint64_t lattice_index(T u) noexcept {
+[[nodiscard]] LUMIS_HD constexpr std::uint64_t lattice_index(T u) noexcept {
     constexpr auto size = std::uint64_t{1} << uniform_bits<T>;
     const auto index = static_cast<std::uint64_t>(static_cast<std::int64_t>(u * static_cast<T>(size)));
     return index < size ? index : size - 1;
@@ -45,7 +45,7 @@ namespace detail {
 
 // {draw(), draw(), ...}, in this order. (Filled by index, the vector may be used uninitialised as far as g++ -O3 can see.)
 template <int N, class T, class F>
-[[nodiscard]] constexpr glm::vec<N, T> fill(F&& draw) {
+[[nodiscard]] LUMIS_HD constexpr glm::vec<N, T> fill(F&& draw) {
     const auto all = [&]<int... I>(std::integer_sequence<int, I...>) {
         return glm::vec<N, T>{(static_cast<void>(I), draw())...};
     };
@@ -72,11 +72,11 @@ class Uniforms {
 
   public:
     // The argument is kept out of deduction: compilers disagree whether it or the guide below decides.
-    constexpr explicit Uniforms(std::type_identity_t<Urbg> engine LUMIS_LIFETIME_BOUND)
+    LUMIS_HD constexpr explicit Uniforms(std::type_identity_t<Urbg> engine LUMIS_LIFETIME_BOUND)
         : engine_{std::forward<Urbg>(engine)} {}
 
     template <int N>
-    [[nodiscard]] constexpr glm::vec<N, T> next() {
+    [[nodiscard]] LUMIS_HD constexpr glm::vec<N, T> next() {
         return detail::fill<N, T>([this] { return static_cast<T>(bits()) * spacing; });
     }
 
@@ -84,7 +84,7 @@ class Uniforms {
     static constexpr T spacing = T(1) / static_cast<T>(std::uint64_t{1} << uniform_bits<T>);
 
     // uniform_bits<T> fair bits: the top ones of one draw, or of several.
-    constexpr std::uint64_t bits() {
+    LUMIS_HD constexpr std::uint64_t bits() {
         std::uint64_t result = 0;
         for (int missing = uniform_bits<T>; missing > 0; missing -= width) {
             const int taken = width < missing ? width : missing;
@@ -94,7 +94,7 @@ class Uniforms {
     }
 
     // `width` fair bits: a draw beyond the largest power of two that the engine's range holds is drawn again.
-    constexpr std::uint64_t draw() {
+    LUMIS_HD constexpr std::uint64_t draw() {
         if constexpr (range == largest) {
             return engine_() - (Engine::min)();
         } else {
@@ -119,10 +119,10 @@ Uniforms(Urbg&&) -> Uniforms<Urbg, float>;
 template <FloatOrDouble T, class F>
 class UniformsFrom {
   public:
-    constexpr explicit UniformsFrom(F nullary) : nullary_{std::move(nullary)} {}
+    LUMIS_HD constexpr explicit UniformsFrom(F nullary) : nullary_{std::move(nullary)} {}
 
     template <int N>
-    [[nodiscard]] constexpr glm::vec<N, T> next() {
+    [[nodiscard]] LUMIS_HD constexpr glm::vec<N, T> next() {
         return detail::fill<N, T>([this] {
             constexpr T below_one = T(1) - std::numeric_limits<T>::epsilon() / 2;
             const T u = static_cast<T>(nullary_());
@@ -135,7 +135,7 @@ class UniformsFrom {
 };
 
 template <FloatOrDouble T, class F>
-[[nodiscard]] constexpr auto uniforms_from(F nullary) {
+[[nodiscard]] LUMIS_HD constexpr auto uniforms_from(F nullary) {
     return UniformsFrom<T, F>{std::move(nullary)};
 }
 

@@ -2,6 +2,7 @@
 // Local frame. Malley's method on polar coordinates of the disk (Pharr, Jakob and Humphreys 2023, section A.5.3).
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/spherical.hpp"
 #include "lumis/core/strategy.hpp"
 
@@ -19,7 +20,7 @@ struct CosineHemisphere {
 
     // u.x = sin^2(theta), u.y = phi / 2 pi. z = sqrt(1 - u.x) has no cancellation; u.x == 1 draws nothing.
     template <RealOf<T> R = T>
-    [[nodiscard]] Sample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+    [[nodiscard]] LUMIS_HD Sample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         const R radius = real::sqrt(u.x);
         const auto circle = unit_circle(u.y);
         const R z = real::sqrt(R(1 - u.x));
@@ -27,11 +28,11 @@ struct CosineHemisphere {
     }
 
     template <RealOf<T> R = T>
-    [[nodiscard]] R pdf(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD R pdf(const Direction<R>& w) const noexcept {
         return density_or_zero(R(w.z * std::numbers::inv_pi_v<T>));
     }
 
-    [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept {
+    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& w) const noexcept {
         return {w.x * w.x + w.y * w.y, turn_of(w.x, w.y)};
     }
 };

@@ -1,6 +1,7 @@
 // All directions with the constant density 1 / (4 pi) per solid angle.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/spherical.hpp"
 #include "lumis/core/strategy.hpp"
 
@@ -18,16 +19,16 @@ struct UniformSphere {
 
     // u.x = (1 - cos(theta)) / 2, u.y = phi / 2 pi.
     template <RealOf<T> R = T>
-    [[nodiscard]] Sample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+    [[nodiscard]] LUMIS_HD Sample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         return {direction_at(R(2 * u.x), u.y), std::numbers::inv_pi_v<T> / 4};
     }
 
     template <RealOf<T> R = T>
-    [[nodiscard]] R pdf(const Direction<R>& /*w*/) const noexcept {
+    [[nodiscard]] LUMIS_HD R pdf(const Direction<R>& /*w*/) const noexcept {
         return std::numbers::inv_pi_v<T> / 4;
     }
 
-    [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept {
+    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& w) const noexcept {
         return {versine_of(w) / 2, turn_of(w.x, w.y)};
     }
 };

@@ -66,19 +66,19 @@ class AreaLight<Shape, ByArea> {
     }
 
     template <RealOf<Scalar> R = Scalar>
-    [[nodiscard]] R pdf(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD R pdf(const Direction<R>& w) const noexcept {
         const SurfaceHit<R> hit = view_.intersect(w);
         return density(hit.distance, hit.cos_light);
     }
 
     // From the reference point to the light; infinity where w misses it.
     template <RealOf<Scalar> R = Scalar>
-    [[nodiscard]] R distance_along(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept {
         return distance_or_infinity(view_.intersect(w));
     }
 
     // Not for spheres, on which two points can lie in one direction.
-    [[nodiscard]] glm::vec<2, Scalar> invert(const Point& w) const noexcept
+    [[nodiscard]] LUMIS_HD glm::vec<2, Scalar> invert(const Point& w) const noexcept
         requires(!std::same_as<Shape, Sphere<Scalar>>) {
         return view_.invert(w);
     }
@@ -86,15 +86,15 @@ class AreaLight<Shape, ByArea> {
     // For hosts that already know where a ray hit this light: the distance to the point, and the cosine there, of either
     // sign, between the ray and the normal of the shape itself. The cosine to an interpolated shading normal gives a density
     // that nothing is drawn with, and MIS weights that do not sum to 1: estimates are then biased by some percent.
-    [[nodiscard]] Scalar pdf_from_hit(Scalar distance, Scalar cos_light) const noexcept {
+    [[nodiscard]] LUMIS_HD Scalar pdf_from_hit(Scalar distance, Scalar cos_light) const noexcept {
         return density(distance, cos_light);
     }
 
-    [[nodiscard]] Scalar area() const noexcept { return view_.area(); }
+    [[nodiscard]] LUMIS_HD Scalar area() const noexcept { return view_.area(); }
 
   private:
     template <Real R>
-    [[nodiscard]] R density(R distance, R cos_light) const noexcept {
+    [[nodiscard]] LUMIS_HD R density(R distance, R cos_light) const noexcept {
         return area_to_solid_angle(pdf_area_, distance, cos_light);
     }
 

@@ -29,7 +29,7 @@ template <Real R>
 
 // The density that is even over a solid angle; 0 over none, and over one so small that its inverse is out of range.
 template <std::floating_point T>
-[[nodiscard]] T uniform_density(T solid_angle) noexcept {
+[[nodiscard]] LUMIS_HD T uniform_density(T solid_angle) noexcept {
     return density_or_zero(real::quotient_where(solid_angle > 0, T(1), solid_angle));
 }
 
@@ -54,22 +54,22 @@ class AreaLight<Sphere<T>, BySolidAngle> {
         return detail::seen_at(direction, pdf_, distance);
     }
 
-    [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept { return view_.invert(w); }
+    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& w) const noexcept { return view_.invert(w); }
 
     template <RealOf<T> R = T>
-    [[nodiscard]] R pdf(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD R pdf(const Direction<R>& w) const noexcept {
         return real::select(view_.contains(w), R(pdf_), 0);
     }
 
     // From the reference point to the light; infinity where w misses it.
     template <RealOf<T> R = T>
-    [[nodiscard]] R distance_along(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept {
         return distance_or_infinity(view_.intersect(w));
     }
 
-    [[nodiscard]] T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
+    [[nodiscard]] LUMIS_HD T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
 
-    [[nodiscard]] T solid_angle() const noexcept { return view_.solid_angle(); }
+    [[nodiscard]] LUMIS_HD T solid_angle() const noexcept { return view_.solid_angle(); }
 
   private:
     SphereView<T> view_;
@@ -97,21 +97,21 @@ class AreaLight<Triangle<T>, BySolidAngle> {
     }
 
     template <RealOf<T> R = T>
-    [[nodiscard]] R pdf(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD R pdf(const Direction<R>& w) const noexcept {
         return real::select(view_.intersect(w).distance > 0, R(pdf_), 0);
     }
 
-    [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept { return seen_.invert(w); }
+    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& w) const noexcept { return seen_.invert(w); }
 
     // From the reference point to the light; infinity where w misses it.
     template <RealOf<T> R = T>
-    [[nodiscard]] R distance_along(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept {
         return distance_or_infinity(view_.intersect(w));
     }
 
-    [[nodiscard]] T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
+    [[nodiscard]] LUMIS_HD T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
 
-    [[nodiscard]] T solid_angle() const noexcept { return seen_.solid_angle(); }
+    [[nodiscard]] LUMIS_HD T solid_angle() const noexcept { return seen_.solid_angle(); }
 
   private:
     LUMIS_INLINE explicit AreaLight(const FlatShape<Triangle<T>>& shape) noexcept
@@ -156,23 +156,23 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     }
 
     template <RealOf<T> R = T>
-    [[nodiscard]] R pdf(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD R pdf(const Direction<R>& w) const noexcept {
         return real::select(view_.intersect(w).distance > 0, R(pdf_), 0);
     }
 
-    [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept {
+    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& w) const noexcept {
         return halves_ ? halves_->invert(w) : rectangle_.invert(w);
     }
 
     // From the reference point to the light; infinity where w misses it.
     template <RealOf<T> R = T>
-    [[nodiscard]] R distance_along(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept {
         return distance_or_infinity(view_.intersect(w));
     }
 
-    [[nodiscard]] T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
+    [[nodiscard]] LUMIS_HD T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
 
-    [[nodiscard]] T solid_angle() const noexcept { return solid_angle_; }
+    [[nodiscard]] LUMIS_HD T solid_angle() const noexcept { return solid_angle_; }
 
   private:
     using Shape = FlatShape<Parallelogram<T>>;
@@ -192,7 +192,7 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
 
     // Whether the edges are at right angles; up to the rounding of T, unless the reference point is so close by that such a
     // shear shows.
-    [[nodiscard]] static bool is_rectangle(const Shape& shape) noexcept {
+    [[nodiscard]] LUMIS_HD static bool is_rectangle(const Shape& shape) noexcept {
         const auto dot = glm::dot(shape.in_units.edge_u, shape.in_units.edge_v);
         if (dot == 0) return true;
         const auto u = real::length(shape.in_units.edge_u), v = real::length(shape.in_units.edge_v);
@@ -210,12 +210,12 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
                      shape.in_units.edge_u + shape.in_units.edge_v} {}
 
         // 0 if the reference point lies at a vertex or in the plane.
-        [[nodiscard]] T solid_angle() const noexcept {
+        [[nodiscard]] LUMIS_HD T solid_angle() const noexcept {
             return share_ > 0 ? first_.solid_angle() + second_.solid_angle() : T(0);
         }
 
         template <Real R>
-        [[nodiscard]] Direction<R> sample(glm::vec<2, R> u) const noexcept {
+        [[nodiscard]] LUMIS_HD Direction<R> sample(glm::vec<2, R> u) const noexcept {
             const T rest = 1 - share_;
             return real::either(
                 u.x < share_,
@@ -227,7 +227,7 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
                 });
         }
 
-        [[nodiscard]] glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
+        [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
             const bool in_first = glm::dot(w, to_first_) > 0;
             const glm::vec<2, T> u = in_first ? first_.invert(w) : second_.invert(w);
             return {in_first ? u.x * share_ : 1 - u.x * (1 - share_), u.y};

@@ -2,6 +2,7 @@
 // the irradiance on a surface that faces the light, times what the surface does with it.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 
 #include <limits>
@@ -19,19 +20,19 @@ class DirectionalLight {
     static constexpr bool is_delta = true;
 
     // direction: unit, towards the light.
-    constexpr explicit DirectionalLight(const Direction<T>& direction) noexcept
+    LUMIS_HD constexpr explicit DirectionalLight(const Direction<T>& direction) noexcept
         : direction_{detail::unit_or(direction, T(0))} {
         LUMIS_ASSERT(detail::is_unit(direction));
     }
 
     template <RealOf<T> R = T>
-    [[nodiscard]] constexpr LightSample<Direction<R>, R> sample(glm::vec<2, R>) const noexcept {
+    [[nodiscard]] LUMIS_HD constexpr LightSample<Direction<R>, R> sample(glm::vec<2, R>) const noexcept {
         if (!detail::is_unit(direction_)) return {};
         return {Direction<R>(direction_), T(1), std::numeric_limits<T>::infinity()};
     }
 
     template <RealOf<T> R = T>
-    [[nodiscard]] constexpr R pdf(const Direction<R>&) const noexcept {
+    [[nodiscard]] LUMIS_HD constexpr R pdf(const Direction<R>&) const noexcept {
         return T(0);
     }
 

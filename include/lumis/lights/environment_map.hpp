@@ -60,8 +60,8 @@ class BasicEnvironmentMap {
     // for_each_row: the host's own way to run the rows, on threads perhaps, see InOrder.
     // Keeps 6 bytes a texel with GuidedRows, 8 with AliasRows, and 28 more a row.
     template <class ForEachRow = InOrder>
-    BasicEnvironmentMap(std::integral auto width, std::integral auto height, std::span<const T> luminance,
-                        EnvironmentOptions options = {}, const ForEachRow& for_each_row = {})
+    LUMIS_HD BasicEnvironmentMap(std::integral auto width, std::integral auto height, std::span<const T> luminance,
+                                 EnvironmentOptions options = {}, const ForEachRow& for_each_row = {})
         : grid_{width, height, luminance.size()} {
         require_weights(luminance, this->width(), for_each_row);
         const auto weights_of = [&](std::size_t y, std::span<double> weights) {
@@ -78,14 +78,14 @@ class BasicEnvironmentMap {
         for (std::size_t y = 0; y < this->height(); ++y) rows_.push_back(row(y));
     }
 
-    [[nodiscard]] std::size_t width() const noexcept { return grid_.width(); }
-    [[nodiscard]] std::size_t height() const noexcept { return grid_.height(); }
-    [[nodiscard]] std::size_t memory_bytes() const noexcept {
+    [[nodiscard]] LUMIS_HD std::size_t width() const noexcept { return grid_.width(); }
+    [[nodiscard]] LUMIS_HD std::size_t height() const noexcept { return grid_.height(); }
+    [[nodiscard]] LUMIS_HD std::size_t memory_bytes() const noexcept {
         return grid_.memory_bytes() + rows_.size() * sizeof(Row);
     }
 
     // True if no texel has any luminance: then nothing is drawn, and the density is 0.
-    [[nodiscard]] bool empty() const noexcept { return grid_.empty(); }
+    [[nodiscard]] LUMIS_HD bool empty() const noexcept { return grid_.empty(); }
 
     // A drawn point of the map as direction_from_latlong takes it.
     template <RealOf<T> R>
@@ -110,7 +110,7 @@ class BasicEnvironmentMap {
     // Tables are read lane by lane.
     template <Real R>
         requires(!std::same_as<R, T>)
-    [[nodiscard]] Drawn<R> draw(glm::vec<2, R> u) const noexcept {
+    [[nodiscard]] LUMIS_HD Drawn<R> draw(glm::vec<2, R> u) const noexcept {
         std::array<Drawn<T>, R::size> drawn;
         for (std::size_t i = 0; i < R::size; ++i) drawn[i] = draw(glm::vec<2, T>{u.x[i], u.y[i]});
         return {R::of_lanes([&](auto i) { return drawn[i].turn; }),
@@ -119,7 +119,7 @@ class BasicEnvironmentMap {
     }
 
     template <RealOf<T> R = T>
-    [[nodiscard]] LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+    [[nodiscard]] LUMIS_HD LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         const Drawn<R> drawn = draw(u);
         return {direction_from_latlong(drawn.turn, drawn.versine, drawn.pole), drawn.pdf,
                 std::numeric_limits<T>::infinity()};
@@ -133,24 +133,24 @@ class BasicEnvironmentMap {
     }
 
     template <RealOf<T> R = T>
-    [[nodiscard]] R distance_along(const Direction<R>& /*w*/) const noexcept {
+    [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& /*w*/) const noexcept {
         return std::numeric_limits<T>::infinity();
     }
 
     // The density at a point (u, v) of the map, for hosts that have it from their own look-up of the radiance.
     // 0 for a NaN.
-    [[nodiscard]] T pdf_at(glm::vec<2, T> uv) const noexcept {
+    [[nodiscard]] LUMIS_HD T pdf_at(glm::vec<2, T> uv) const noexcept {
         if (!(uv.x >= 0 && uv.y >= 0)) return 0;
         const auto texel = grid_.locate(uv);
         return static_cast<T>(grid_.cell_counts(texel.column, texel.row)) * rows_[texel.row].density_of_count;
     }
     template <Real R>
         requires(!std::same_as<R, T>)
-    [[nodiscard]] R pdf_at(const glm::vec<2, R>& uv) const noexcept {
+    [[nodiscard]] LUMIS_HD R pdf_at(const glm::vec<2, R>& uv) const noexcept {
         return R::of_lanes([&](auto i) { return pdf_at(glm::vec<2, T>{uv.x[i], uv.y[i]}); });
     }
 
-    [[nodiscard]] glm::vec<2, T> invert(const Point& w) const noexcept requires
+    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& w) const noexcept requires
         requires(const CountGrid<T, Rows>& grid) {
         grid.invert({});
     }
@@ -174,12 +174,12 @@ class BasicEnvironmentMap {
     };
 
     // cos(theta) at a row's upper edge less that at its lower one; the difference itself would cancel.
-    [[nodiscard]] double row_extent(std::size_t y) const noexcept {
+    [[nodiscard]] LUMIS_HD double row_extent(std::size_t y) const noexcept {
         const double half_row = std::numbers::pi / 2 / static_cast<double>(height());
         return 2 * std::sin(half_row * static_cast<double>(2 * y + 1)) * std::sin(half_row);
     }
 
-    [[nodiscard]] Row row(std::size_t y) const noexcept {
+    [[nodiscard]] LUMIS_HD Row row(std::size_t y) const noexcept {
         const bool from_top = 2 * y < height();
         const std::size_t rows_to_pole = from_top ? y : height() - 1 - y;
         const double sine =
@@ -191,7 +191,7 @@ class BasicEnvironmentMap {
     }
 
     // What MIS compensation takes off every texel: the mean over the sphere; nothing where no texel stands out of it.
-    [[nodiscard]] double compensation(const auto& weights_of, const auto& for_each_row) const {
+    [[nodiscard]] LUMIS_HD double compensation(const auto& weights_of, const auto& for_each_row) const {
         std::vector<double> sums(height()), largest(height());
         for_each_row(height(), [&](std::size_t y) {
             std::vector<double> weights(width());
@@ -208,8 +208,8 @@ class BasicEnvironmentMap {
     // Sets means[x] to the mean of the interpolated luminance over texel x of row y. A bilinear function's mean over a cell
     // weighs the cell's own value by 3/4 and its two neighbours by 1/8 in either direction: it is 0 only where the function
     // is.
-    void mean_luminance(std::span<const T> luminance, std::size_t y, Interpolation interpolation,
-                        std::span<double> means) const noexcept {
+    LUMIS_HD void mean_luminance(std::span<const T> luminance, std::size_t y, Interpolation interpolation,
+                                 std::span<double> means) const noexcept {
         const std::size_t n = width();
         const auto texels = [&](std::size_t row) { return luminance.subspan(row * n, n); };
         if (interpolation == Interpolation::Nearest) {

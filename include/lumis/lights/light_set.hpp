@@ -25,7 +25,7 @@ namespace lumis {
 namespace detail {
 
 template <class Lights>
-[[nodiscard]] decltype(auto) light_of(const Lights& lights, std::size_t i) {
+[[nodiscard]] LUMIS_HD decltype(auto) light_of(const Lights& lights, std::size_t i) {
     if constexpr (std::invocable<const Lights&, std::size_t>) {
         return lights(i);
     } else {
@@ -61,21 +61,22 @@ class LightSet {
     // No lights and no weights are an empty set.
     template <class Weights>
         requires(!std::is_reference_v<Table>)
-    LightSet(Lights lights LUMIS_LIFETIME_BOUND, Weights&& weights)
+    LUMIS_HD LightSet(Lights lights LUMIS_LIFETIME_BOUND, Weights&& weights)
         : lights_{std::forward<Lights>(lights)}, table_{table_of(std::forward<Weights>(weights))} {
         require_same_size();
     }
-    LightSet(Lights lights LUMIS_LIFETIME_BOUND, Table weights LUMIS_LIFETIME_BOUND) requires std::is_reference_v<Table>
+    LUMIS_HD LightSet(Lights lights LUMIS_LIFETIME_BOUND,
+                      Table weights LUMIS_LIFETIME_BOUND) requires std::is_reference_v<Table>
         : lights_{std::forward<Lights>(lights)}, table_{weights} {
         require_same_size();
     }
 
     // True if no light has a weight above 0: then nothing is drawn.
-    [[nodiscard]] bool empty() const noexcept { return table_.empty(); }
+    [[nodiscard]] LUMIS_HD bool empty() const noexcept { return table_.empty(); }
 
     // The first uniform selects the light, with a FineAliasTable the first two. Density and distance are those of the whole
     // set, and ask every light for its own: a light may stand before the one selected, and is then the one that is seen.
-    [[nodiscard]] SampleType sample(glm::vec<dimensions, Scalar> u) const noexcept {
+    [[nodiscard]] LUMIS_HD SampleType sample(glm::vec<dimensions, Scalar> u) const noexcept {
         if constexpr (DrawsDistance<Light> && !LightStrategy<Light>) {
             return sample_point(u);
         } else {
@@ -93,17 +94,17 @@ class LightSet {
     }
 
     // The same but for the distance.
-    [[nodiscard]] Sample<Point, Scalar> sample_point(glm::vec<dimensions, Scalar> u) const noexcept {
+    [[nodiscard]] LUMIS_HD Sample<Point, Scalar> sample_point(glm::vec<dimensions, Scalar> u) const noexcept {
         const auto drawn = sample_one(u).sample;
         return {Point(drawn.value), drawn.pdf > 0 ? pdf(drawn.value) : Scalar(0)};
     }
 
-    [[nodiscard]] Scalar pdf(const Point& x) const noexcept {
+    [[nodiscard]] LUMIS_HD Scalar pdf(const Point& x) const noexcept {
         return density(x, [](std::size_t, const Light&) {});
     }
 
     // To the nearest light of the set; infinity where there is none.
-    [[nodiscard]] Scalar distance_along(const Point& w) const noexcept requires LightStrategy<Light> {
+    [[nodiscard]] LUMIS_HD Scalar distance_along(const Point& w) const noexcept requires LightStrategy<Light> {
         Scalar nearest = std::numeric_limits<Scalar>::infinity();
         for (std::size_t i = 0; i < table_.size(); ++i) {
             if (table_.pdf(i) > 0) nearest = real::lesser(nearest, light(i).distance_along(w));
@@ -118,7 +119,7 @@ class LightSet {
         std::size_t index{};
         LightSampleType sample{};
     };
-    [[nodiscard]] Selected sample_one(glm::vec<dimensions, Scalar> u) const noexcept {
+    [[nodiscard]] LUMIS_HD Selected sample_one(glm::vec<dimensions, Scalar> u) const noexcept {
         constexpr int selecting = dimensions - Light::dimensions;
         glm::vec<selecting, Scalar> first;
         for (int i = 0; i < selecting; ++i) first[i] = u[i];
@@ -130,12 +131,12 @@ class LightSet {
         sample.pdf *= selected.pdf;
         return {selected.value, sample};
     }
-    [[nodiscard]] Scalar pdf_of(std::size_t index, const Point& x) const noexcept {
+    [[nodiscard]] LUMIS_HD Scalar pdf_of(std::size_t index, const Point& x) const noexcept {
         return table_.pdf(index) * static_cast<Scalar>(light(index).pdf(x));
     }
 
   private:
-    void require_same_size() const {
+    LUMIS_HD void require_same_size() const {
         if constexpr (requires { std::size(lights_); }) {
             const std::size_t count = std::size(lights_);
             if (count != table_.size() && !(count == 0 && table_.empty())) {
@@ -147,7 +148,7 @@ class LightSet {
 
     // A table has at least one weight: that of an empty set is 0.
     template <class Weights>
-    static decltype(auto) table_of(Weights&& weights) {
+    LUMIS_HD static decltype(auto) table_of(Weights&& weights) {
         if constexpr (std::same_as<std::remove_cvref_t<Weights>, std::remove_cvref_t<Table>>) {
             return std::forward<Weights>(weights);
         } else {
@@ -158,7 +159,7 @@ class LightSet {
 
     // The density of the whole set; visit(i, light) is called with each light that has a share in it.
     template <class Visit>
-    [[nodiscard]] Scalar density(const Point& x, Visit visit) const noexcept {
+    [[nodiscard]] LUMIS_HD Scalar density(const Point& x, Visit visit) const noexcept {
         Scalar sum = 0;
         for (std::size_t i = 0; i < table_.size(); ++i) {
             if (!(table_.pdf(i) > 0)) continue;
@@ -169,7 +170,7 @@ class LightSet {
         return density_or_zero(sum);
     }
 
-    [[nodiscard]] decltype(auto) light(std::size_t index) const { return detail::light_of(lights_, index); }
+    [[nodiscard]] LUMIS_HD decltype(auto) light(std::size_t index) const { return detail::light_of(lights_, index); }
 
     Lights lights_;
     Table table_;

@@ -2,6 +2,7 @@
 // returns intensity / distance^2, times what the surface does with it.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 
 #include <glm/geometric.hpp>
@@ -17,7 +18,7 @@ class PointLight {
     static constexpr int dimensions = 2;  // as an area light's, so that a host's sampler keeps its dimensions aligned
     static constexpr bool is_delta = true;
 
-    PointLight(const glm::vec<3, T>& position, const glm::vec<3, T>& reference_point) noexcept
+    LUMIS_HD PointLight(const glm::vec<3, T>& position, const glm::vec<3, T>& reference_point) noexcept
         : distance_{real::length(real::rounded(position - reference_point))},
           direction_{
               real::divide(real::rounded(position - reference_point), real::divisor_where(distance_ > 0, distance_))} {
@@ -26,13 +27,13 @@ class PointLight {
 
     // At distance 0, and one whose square is out of range, nothing is drawn.
     template <RealOf<T> R = T>
-    [[nodiscard]] LightSample<Direction<R>, R> sample(glm::vec<2, R>) const noexcept {
+    [[nodiscard]] LUMIS_HD LightSample<Direction<R>, R> sample(glm::vec<2, R>) const noexcept {
         if (!is_squared_length(distance_ * distance_)) return {};
         return {Direction<R>(direction_), T(1), distance_};
     }
 
     template <RealOf<T> R = T>
-    [[nodiscard]] R pdf(const Direction<R>&) const noexcept {
+    [[nodiscard]] LUMIS_HD R pdf(const Direction<R>&) const noexcept {
         return T(0);
     }
 

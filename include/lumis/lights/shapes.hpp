@@ -2,6 +2,7 @@
 // the host's business. A sphere seen from outside is hidden behind its own front.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/sample.hpp"
 
 #include <concepts>
@@ -40,19 +41,19 @@ namespace detail {
 
 // Whether any coordinate of a shape is NaN.
 template <std::floating_point T>
-[[nodiscard]] constexpr bool is_nan(const Triangle<T>& shape) noexcept {
+[[nodiscard]] LUMIS_HD constexpr bool is_nan(const Triangle<T>& shape) noexcept {
     return is_nan(shape.a) || is_nan(shape.b) || is_nan(shape.c);
 }
 template <std::floating_point T>
-[[nodiscard]] constexpr bool is_nan(const Parallelogram<T>& shape) noexcept {
+[[nodiscard]] LUMIS_HD constexpr bool is_nan(const Parallelogram<T>& shape) noexcept {
     return is_nan(shape.corner) || is_nan(shape.edge_u) || is_nan(shape.edge_v);
 }
 template <std::floating_point T>
-[[nodiscard]] constexpr bool is_nan(const Disk<T>& shape) noexcept {
+[[nodiscard]] LUMIS_HD constexpr bool is_nan(const Disk<T>& shape) noexcept {
     return is_nan(shape.center) || is_nan(shape.normal) || is_nan(shape.radius);
 }
 template <std::floating_point T>
-[[nodiscard]] constexpr bool is_nan(const Sphere<T>& shape) noexcept {
+[[nodiscard]] LUMIS_HD constexpr bool is_nan(const Sphere<T>& shape) noexcept {
     return is_nan(shape.center) || is_nan(shape.radius);
 }
 

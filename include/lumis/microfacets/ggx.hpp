@@ -35,12 +35,12 @@ class Ggx {
     }
 
     // After raising; (0, 0) if out of range.
-    [[nodiscard]] const glm::vec<2, T>& alpha() const noexcept { return alpha_; }
+    [[nodiscard]] LUMIS_HD const glm::vec<2, T>& alpha() const noexcept { return alpha_; }
 
     // Density of normals per unit of projected area and solid angle: integral of D(wm) wm.z is 1. Heitz 2014, eq. 85.
     // wm may have any length, which cancels: a half vector need not be normalised.
     template <RealOf<T> R = T>
-    [[nodiscard]] R D(const Direction<R>& wm) const noexcept {
+    [[nodiscard]] LUMIS_HD R D(const Direction<R>& wm) const noexcept {
         const R x = wm.x * inverse_alpha_.x, y = wm.y * inverse_alpha_.y;
         const R stretched = x * x + y * y + wm.z * wm.z;
         const R shrinkage = real::divide(R(glm::dot(wm, wm)), real::divisor_where(stretched > 0, stretched));
@@ -50,7 +50,7 @@ class Ggx {
 
     // Length of w stretched by the roughness: (alpha.x w.x, alpha.y w.y, w.z). All of Smith's terms follow from it.
     template <RealOf<T> R = T>
-    [[nodiscard]] R stretched_length(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD R stretched_length(const Direction<R>& w) const noexcept {
         const R x = alpha_.x * w.x, y = alpha_.y * w.y;
         return real::sqrt(R(x * x + y * y + w.z * w.z));
     }
@@ -58,7 +58,7 @@ class Ggx {
     // Smith's Lambda, of |w.z|; infinite at grazing. The textbook (-1 + sqrt(1 + a^2 tan^2)) / 2 loses all digits for
     // a tan(theta) < 2e-4 in float.
     template <RealOf<T> R = T>
-    [[nodiscard]] R lambda(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD R lambda(const Direction<R>& w) const noexcept {
         const R x = alpha_.x * w.x, y = alpha_.y * w.y, z = real::abs(w.z);
         const R slope = x * x + y * y, divisor = 2 * z * (z + real::sqrt(R(slope + z * z)));
         const R quotient = real::divide(slope, real::divisor_where(divisor > 0, divisor));
@@ -68,31 +68,31 @@ class Ggx {
 
     // Fraction of a microfacet's area visible from w, 1 / (1 + Lambda); 0 from below. Heitz 2014, eq. 43.
     template <RealOf<T> R = T>
-    [[nodiscard]] R G1(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD R G1(const Direction<R>& w) const noexcept {
         return real::quotient_where(w.z > 0 && valid(), R(2 * w.z), R(w.z + stretched_length(w)));
     }
 
     // 1 / (1 + Lambda(wo) + Lambda(wi)), height-correlated; 0 from below. Heitz 2014, eq. 99.
     template <RealOf<T> R = T>
-    [[nodiscard]] R G2(const Direction<T>& wo, const Direction<R>& wi) const noexcept {
+    [[nodiscard]] LUMIS_HD R G2(const Direction<T>& wo, const Direction<R>& wi) const noexcept {
         return 4 * wo.z * wi.z * visibility(wo, wi);
     }
 
     // Reflected radiance per unit of irradiance, D G2 / (4 cos cos), with Fresnel reflectance 1; 0 from below.
     template <RealOf<T> R = T>
-    [[nodiscard]] R brdf(const Direction<T>& wo, const Direction<R>& wi) const noexcept {
+    [[nodiscard]] LUMIS_HD R brdf(const Direction<T>& wo, const Direction<R>& wi) const noexcept {
         return D<R>(Direction<R>(wo) + wi) * visibility(wo, wi);
     }
 
   private:
-    static T in_range(T alpha) noexcept {
+    LUMIS_HD static T in_range(T alpha) noexcept {
         return alpha >= 0 && alpha <= T(ggx_max_alpha) ? real::greater(alpha, T(ggx_min_alpha)) : T(0);
     }
-    [[nodiscard]] bool valid() const noexcept { return alpha_.x > 0; }
+    [[nodiscard]] LUMIS_HD bool valid() const noexcept { return alpha_.x > 0; }
 
     // G2 / (4 wo.z wi.z), with the cosines cancelled by hand so that grazing directions divide nothing by 0.
     template <RealOf<T> R>
-    [[nodiscard]] R visibility(const Direction<T>& wo, const Direction<R>& wi) const noexcept {
+    [[nodiscard]] LUMIS_HD R visibility(const Direction<T>& wo, const Direction<R>& wi) const noexcept {
         if (!(wo.z > 0 && valid())) return 0;
         const R divisor = wo.z * stretched_length(wi) + wi.z * stretched_length(wo);
         return real::quotient_where(wi.z > 0 && divisor > 0, R(T(0.5)), divisor);

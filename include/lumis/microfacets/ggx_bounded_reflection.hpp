@@ -16,7 +16,7 @@ namespace detail {
 // By how much the cap can fall short of the visible hemisphere: 1 - k of Eto and Tokuyoshi's listing, where
 // k = (1 - a^2) s^2 / (s^2 + a^2 z^2), without the cancellation.
 template <std::floating_point T>
-[[nodiscard]] T bounded_cap_shortfall(const Direction<T>& wo, const glm::vec<2, T>& alpha) noexcept {
+[[nodiscard]] LUMIS_HD T bounded_cap_shortfall(const Direction<T>& wo, const glm::vec<2, T>& alpha) noexcept {
     const T a = real::lesser(real::lesser(alpha.x, alpha.y), T(1));
     const T s = 1 + real::sqrt(wo.x * wo.x + wo.y * wo.y);
     const T a2 = a * a, s2 = s * s, z2 = wo.z * wo.z;
@@ -39,7 +39,7 @@ struct GgxBoundedReflection : Reflected<detail::GgxBoundedNormals<T>> {
         : Reflected<detail::GgxBoundedNormals<T>>{wo, detail::GgxBoundedNormals<T>{wo, Ggx<T>{alpha}}} {}
 
     // The surface, for its reflectance: ggx().brdf(wo, wi).
-    [[nodiscard]] const Ggx<T>& ggx() const noexcept { return this->normals().ggx(); }
+    [[nodiscard]] LUMIS_HD const Ggx<T>& ggx() const noexcept { return this->normals().ggx(); }
 };
 
 }  // namespace lumis

@@ -15,7 +15,7 @@ struct GgxReflection : Reflected<GgxVndf<T>> {
         : Reflected<GgxVndf<T>>{wo, GgxVndf<T>{wo, alpha}} {}
 
     // The surface, for its reflectance: ggx().brdf(wo, wi).
-    [[nodiscard]] const Ggx<T>& ggx() const noexcept { return this->normals().ggx(); }
+    [[nodiscard]] LUMIS_HD const Ggx<T>& ggx() const noexcept { return this->normals().ggx(); }
 };
 
 }  // namespace lumis

@@ -1,6 +1,7 @@
 // The one direction into which a mirror reflects wo. Local frame; a delta strategy: no density, probability 1.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 
 namespace lumis {
@@ -15,16 +16,16 @@ class PerfectReflection {
     static constexpr bool is_delta = true;
 
     // wo: unit; on or below the horizon nothing is drawn.
-    constexpr explicit PerfectReflection(const Direction<T>& wo) noexcept : wo_{above_horizon_or_zero(wo)} {}
+    LUMIS_HD constexpr explicit PerfectReflection(const Direction<T>& wo) noexcept : wo_{above_horizon_or_zero(wo)} {}
 
     template <RealOf<T> R = T>
-    [[nodiscard]] constexpr Sample<Direction<R>, R> sample(glm::vec<2, R>) const noexcept {
+    [[nodiscard]] LUMIS_HD constexpr Sample<Direction<R>, R> sample(glm::vec<2, R>) const noexcept {
         if (!(wo_.z > 0)) return {Direction<R>{T(0)}, T(0)};
         return {{-wo_.x, -wo_.y, wo_.z}, T(1)};
     }
 
     template <RealOf<T> R = T>
-    [[nodiscard]] constexpr R pdf(const Direction<R>&) const noexcept {
+    [[nodiscard]] LUMIS_HD constexpr R pdf(const Direction<R>&) const noexcept {
         return T(0);
     }
 

@@ -42,7 +42,7 @@ class Reflected {
     // which leaves no digit at grazing incidence. Normals whose density has wo.wm as a factor offer pdf_per_cosine, the
     // density without it; then wo.wm is never formed.
     template <RealOf<Scalar> R = Scalar>
-    [[nodiscard]] R pdf(const Direction<R>& wi) const noexcept {
+    [[nodiscard]] LUMIS_HD R pdf(const Direction<R>& wi) const noexcept {
         const Direction<R> half = Direction<R>(wo_) + wi;
         R density;
         if constexpr (requires { normals_.pdf_per_cosine(half); }) {
@@ -55,17 +55,18 @@ class Reflected {
         return density_or_zero(real::select(wi.z > 0 && wo_.z > 0, density, 0));
     }
 
-    [[nodiscard]] UniformsOf<Normals> invert(const Point& wi) const noexcept requires InvertibleStrategy<Normals> {
+    [[nodiscard]] LUMIS_HD UniformsOf<Normals> invert(const Point& wi) const noexcept requires
+        InvertibleStrategy<Normals> {
         const Point half = wo_ + wi;
         return normals_.invert(real::divide(half, real::length(half)));
     }
 
-    [[nodiscard]] const Normals& normals() const noexcept { return normals_; }
+    [[nodiscard]] LUMIS_HD const Normals& normals() const noexcept { return normals_; }
 
   private:
     // A drawn normal, or 0 if none was drawn. It is of any length where the strategy can spare normalising it.
     template <Real R>
-    [[nodiscard]] Direction<R> normal(glm::vec<dimensions, R> u) const noexcept {
+    [[nodiscard]] LUMIS_HD Direction<R> normal(glm::vec<dimensions, R> u) const noexcept {
         if constexpr (requires { normals_.along_normal(u); }) {
             return normals_.along_normal(u);
         } else {

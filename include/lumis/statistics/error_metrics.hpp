@@ -4,6 +4,7 @@
 
 #include "lumis/core/assert.hpp"
 #include "lumis/core/detail/spannable.hpp"
+#include "lumis/core/platform.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -13,7 +14,7 @@ namespace lumis {
 
 // Mean of (estimate - reference)^2.
 template <Spannable Values>
-[[nodiscard]] double mean_squared_error(const Values& estimate, const Values& reference) noexcept {
+[[nodiscard]] LUMIS_HD double mean_squared_error(const Values& estimate, const Values& reference) noexcept {
     const std::span e{estimate}, r{reference};
     LUMIS_ASSERT(e.size() == r.size());
     double sum = 0;
@@ -25,7 +26,7 @@ template <Spannable Values>
 }
 
 template <Spannable Values>
-[[nodiscard]] double root_mean_squared_error(const Values& estimate, const Values& reference) noexcept {
+[[nodiscard]] LUMIS_HD double root_mean_squared_error(const Values& estimate, const Values& reference) noexcept {
     return std::sqrt(mean_squared_error(estimate, reference));
 }
 
@@ -33,8 +34,8 @@ template <Spannable Values>
 // region counts as much as a bright one. The floor, in the unit of the values, says from where on dark is black; with a
 // floor of 0, a reference of 0 has no relative error.
 template <Spannable Values>
-[[nodiscard]] double relative_mean_squared_error(const Values& estimate, const Values& reference,
-                                                 double floor) noexcept {
+[[nodiscard]] LUMIS_HD double relative_mean_squared_error(const Values& estimate, const Values& reference,
+                                                          double floor) noexcept {
     const std::span e{estimate}, r{reference};
     LUMIS_ASSERT(e.size() == r.size());
     double sum = 0;

@@ -4,6 +4,7 @@
 // exceeds double's range: deviations beyond 1e154, which no float reaches.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 
 #include <cmath>
@@ -17,7 +18,7 @@ template <std::floating_point T = double>
 class RunningMoments {
   public:
     // A number that is not finite is counted in rejected() and enters nothing else.
-    void add(T value) noexcept {
+    LUMIS_HD void add(T value) noexcept {
         if (!std::isfinite(value)) {
             ++rejected_;
             return;
@@ -34,7 +35,7 @@ class RunningMoments {
     }
 
     // As if everything added to `other` had been added here.
-    void merge(const RunningMoments& other) noexcept {
+    LUMIS_HD void merge(const RunningMoments& other) noexcept {
         rejected_ += other.rejected_;
         if (other.count_ == 0) return;
         if (count_ == 0) {  // exactly as they are: the square below may overflow
@@ -52,24 +53,26 @@ class RunningMoments {
         count_ += other.count_;
     }
 
-    [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
-    [[nodiscard]] std::uint64_t rejected() const noexcept { return rejected_; }
+    [[nodiscard]] LUMIS_HD std::uint64_t count() const noexcept { return count_; }
+    [[nodiscard]] LUMIS_HD std::uint64_t rejected() const noexcept { return rejected_; }
 
     // 0 of nothing.
-    [[nodiscard]] double mean() const noexcept { return mean_; }
+    [[nodiscard]] LUMIS_HD double mean() const noexcept { return mean_; }
 
     // Unbiased (divided by count - 1); NaN for fewer than two numbers, infinite beyond double's range.
-    [[nodiscard]] double variance() const noexcept {
+    [[nodiscard]] LUMIS_HD double variance() const noexcept {
         return count_ > 1 ? squares_ / static_cast<double>(count_ - 1) : std::numeric_limits<double>::quiet_NaN();
     }
 
     // The standard error of the mean; NaN for fewer than two numbers.
-    [[nodiscard]] double standard_error() const noexcept { return std::sqrt(variance() / static_cast<double>(count_)); }
+    [[nodiscard]] LUMIS_HD double standard_error() const noexcept {
+        return std::sqrt(variance() / static_cast<double>(count_));
+    }
 
   private:
     // The mean of two groups of numbers, given their means and sizes, without the difference of the means: that of
     // 1e308 and -1e308 overflows.
-    static double weighted_mean(double a, double a_size, double b, double b_size) noexcept {
+    LUMIS_HD static double weighted_mean(double a, double a_size, double b, double b_size) noexcept {
         const double size = a_size + b_size;
         return real::rounded(a * real::rounded(a_size / size)) + real::rounded(b * real::rounded(b_size / size));
     }

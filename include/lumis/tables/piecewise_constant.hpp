@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lumis/core/detail/spannable.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/tables/detail/count_grid.hpp"
 #include "lumis/tables/detail/cumulative_counts.hpp"
@@ -28,37 +29,39 @@ class PiecewiseConstant1D {
     // Throws std::invalid_argument for no weights, for one that is NaN, infinite or negative, and for more than there are
     // counts (2^24 in float), or too many dim ones (see require_enough_counts). All-zero weights are legal, see empty().
     // Keeps 6 bytes a weight.
-    explicit PiecewiseConstant1D(std::span<const T> weights) : table_{checked_size<T>(weights.size()), 1} {
+    LUMIS_HD explicit PiecewiseConstant1D(std::span<const T> weights) : table_{checked_size<T>(weights.size()), 1} {
         require_weights(weights);
         const Dealt dealt = table_.deal(0, std::vector<double>(weights.begin(), weights.end()));
         require_enough_counts<T>(dealt);
         density_of_count_ = dealt.value > 0 ? static_cast<T>(size()) / static_cast<T>(total_counts<T>) : T(0);
     }
 
-    [[nodiscard]] std::size_t size() const noexcept { return table_.entries(); }
+    [[nodiscard]] LUMIS_HD std::size_t size() const noexcept { return table_.entries(); }
 
     // True if all weights are 0: then nothing is drawn, and the density is 0.
-    [[nodiscard]] bool empty() const noexcept { return !(density_of_count_ > 0); }
+    [[nodiscard]] LUMIS_HD bool empty() const noexcept { return !(density_of_count_ > 0); }
 
     // A cell of weight 0 is never drawn.
-    [[nodiscard]] Sample<Point, T> sample(glm::vec<1, T> u) const noexcept {
+    [[nodiscard]] LUMIS_HD Sample<Point, T> sample(glm::vec<1, T> u) const noexcept {
         const auto drawn = table_.draw(0, u.x);
         const T x =
             real::divide(static_cast<T>(drawn.index) + clear_of_edges(drawn.position, size()), static_cast<T>(size()));
         return {x, density(drawn.counts)};
     }
 
-    [[nodiscard]] T pdf(Point x) const noexcept {
+    [[nodiscard]] LUMIS_HD T pdf(Point x) const noexcept {
         return x >= 0 && x <= 1 ? density(table_.counts(0, index_of(x, size()))) : T(0);
     }
 
-    [[nodiscard]] glm::vec<1, T> invert(Point x) const noexcept {
+    [[nodiscard]] LUMIS_HD glm::vec<1, T> invert(Point x) const noexcept {
         const std::size_t index = index_of(x, size());
         return glm::vec<1, T>{table_.uniform_of(0, index, x * static_cast<T>(size()) - static_cast<T>(index))};
     }
 
   private:
-    [[nodiscard]] T density(std::uint32_t counts) const noexcept { return static_cast<T>(counts) * density_of_count_; }
+    [[nodiscard]] LUMIS_HD T density(std::uint32_t counts) const noexcept {
+        return static_cast<T>(counts) * density_of_count_;
+    }
 
     GuidedRows<T> table_;
     T density_of_count_;  // 0 if nothing is drawn
@@ -75,8 +78,8 @@ class PiecewiseConstant2D {
     // weights: width x height values, row by row. Throws as PiecewiseConstant1D does, and for a size that does not match.
     // for_each_row: see InOrder. Keeps 6 bytes a weight, and 12 more a row.
     template <class ForEachRow = InOrder>
-    PiecewiseConstant2D(std::integral auto width, std::integral auto height, std::span<const T> weights,
-                        const ForEachRow& for_each_row = {})
+    LUMIS_HD PiecewiseConstant2D(std::integral auto width, std::integral auto height, std::span<const T> weights,
+                                 const ForEachRow& for_each_row = {})
         : grid_{width, height, weights.size()} {
         require_weights(weights, this->width(), for_each_row);
         const auto weights_of = [&](std::size_t y, std::span<double> row) {
@@ -86,14 +89,14 @@ class PiecewiseConstant2D {
             weights_of, [](std::size_t) { return 1.0; }, for_each_row);
     }
 
-    [[nodiscard]] std::size_t width() const noexcept { return grid_.width(); }
-    [[nodiscard]] std::size_t height() const noexcept { return grid_.height(); }
+    [[nodiscard]] LUMIS_HD std::size_t width() const noexcept { return grid_.width(); }
+    [[nodiscard]] LUMIS_HD std::size_t height() const noexcept { return grid_.height(); }
 
     // True if all weights are 0: then nothing is drawn, and the density is 0.
-    [[nodiscard]] bool empty() const noexcept { return grid_.empty(); }
+    [[nodiscard]] LUMIS_HD bool empty() const noexcept { return grid_.empty(); }
 
     // u.y draws the row, u.x the cell within it; x runs along a row.
-    [[nodiscard]] Sample<Point, T> sample(glm::vec<2, T> u) const noexcept {
+    [[nodiscard]] LUMIS_HD Sample<Point, T> sample(glm::vec<2, T> u) const noexcept {
         if (empty()) return {};
         const auto drawn = grid_.draw(u);
         const Point x{real::divide(static_cast<T>(drawn.column) + drawn.position.x, static_cast<T>(width())),
@@ -101,16 +104,18 @@ class PiecewiseConstant2D {
         return {x, density(drawn.row, drawn.counts)};
     }
 
-    [[nodiscard]] T pdf(const Point& x) const noexcept {
+    [[nodiscard]] LUMIS_HD T pdf(const Point& x) const noexcept {
         if (empty() || !(x.x >= 0 && x.x <= 1 && x.y >= 0 && x.y <= 1)) return T(0);
         const auto cell = grid_.locate(x);
         return density(cell.row, grid_.cell_counts(cell.column, cell.row));
     }
 
-    [[nodiscard]] glm::vec<2, T> invert(const Point& x) const noexcept { return grid_.invert(grid_.locate(x)); }
+    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& x) const noexcept {
+        return grid_.invert(grid_.locate(x));
+    }
 
   private:
-    [[nodiscard]] T density(std::size_t row, std::uint32_t counts) const noexcept {
+    [[nodiscard]] LUMIS_HD T density(std::size_t row, std::uint32_t counts) const noexcept {
         constexpr T all = static_cast<T>(total_counts<T>);
         return (static_cast<T>(grid_.row_counts(row)) / all * static_cast<T>(height())) *
                (static_cast<T>(counts) / all * static_cast<T>(width()));

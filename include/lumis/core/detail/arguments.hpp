@@ -15,15 +15,15 @@ namespace lumis::detail {
 
 // Quiet: comparing a NaN for equality raises no exception.
 template <FloatOrDouble T>
-[[nodiscard]] constexpr bool is_nan(T x) noexcept {
+[[nodiscard]] LUMIS_HD constexpr bool is_nan(T x) noexcept {
     return !(x == x);
 }
 template <FloatOrDouble T>
-[[nodiscard]] constexpr bool is_nan(const glm::vec<2, T>& v) noexcept {
+[[nodiscard]] LUMIS_HD constexpr bool is_nan(const glm::vec<2, T>& v) noexcept {
     return is_nan(v.x) || is_nan(v.y);
 }
 template <FloatOrDouble T>
-[[nodiscard]] constexpr bool is_nan(const glm::vec<3, T>& v) noexcept {
+[[nodiscard]] LUMIS_HD constexpr bool is_nan(const glm::vec<3, T>& v) noexcept {
     return is_nan(v.x) || is_nan(v.y) || is_nan(v.z);
 }
 
@@ -32,17 +32,17 @@ template <FloatOrDouble T>
 inline constexpr float unit_tolerance = 1e-3f;
 
 template <FloatOrDouble T>
-[[nodiscard]] constexpr T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) noexcept {
+[[nodiscard]] LUMIS_HD constexpr T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) noexcept {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 template <FloatOrDouble T>
-[[nodiscard]] constexpr T squared(T x) noexcept {
+[[nodiscard]] LUMIS_HD constexpr T squared(T x) noexcept {
     return x * x;
 }
 
 template <FloatOrDouble T>
-[[nodiscard]] constexpr bool is_unit(const glm::vec<3, T>& v) noexcept {
+[[nodiscard]] LUMIS_HD constexpr bool is_unit(const glm::vec<3, T>& v) noexcept {
     return squared(dot(v, v) - 1) <= squared(T(unit_tolerance));
 }
 
@@ -50,8 +50,8 @@ template <FloatOrDouble T>
 // cosine of 1e-4, that of GGX with roughness 0.1 is off by 0.2 %. A frame may be left-handed, which mirrored texture
 // coordinates make it.
 template <FloatOrDouble T>
-[[nodiscard]] constexpr bool are_orthonormal(const glm::vec<3, T>& a, const glm::vec<3, T>& b,
-                                             const glm::vec<3, T>& c) noexcept {
+[[nodiscard]] LUMIS_HD constexpr bool are_orthonormal(const glm::vec<3, T>& a, const glm::vec<3, T>& b,
+                                                      const glm::vec<3, T>& c) noexcept {
     const T lengths = squared(dot(a, a) - 1) + squared(dot(b, b) - 1) + squared(dot(c, c) - 1);
     const T cosines = squared(dot(a, b)) + squared(dot(b, c)) + squared(dot(c, a));
     return lengths + 100 * cosines <= squared(T(unit_tolerance));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lumis/core/frame.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/spherical.hpp"
 #include "lumis/lights/detail/surface.hpp"
 #include "lumis/lights/shapes.hpp"
@@ -18,7 +19,7 @@ namespace lumis {
 template <std::floating_point T>
 class DiskView {
   public:
-    DiskView(const Disk<T>& disk, const glm::vec<3, T>& reference_point) noexcept
+    LUMIS_HD DiskView(const Disk<T>& disk, const glm::vec<3, T>& reference_point) noexcept
         : center_{real::rounded(disk.center - reference_point)} {
         LUMIS_ASSERT(!detail::is_nan(disk) && !detail::is_nan(reference_point));
         const T squared = glm::dot(disk.normal, disk.normal);
@@ -29,11 +30,11 @@ class DiskView {
         height_ = glm::dot(center_, frame_.normal());
     }
 
-    [[nodiscard]] T area() const noexcept { return std::numbers::pi_v<T> * radius_ * radius_; }
+    [[nodiscard]] LUMIS_HD T area() const noexcept { return std::numbers::pi_v<T> * radius_ * radius_; }
 
     // u.x = 0 is the centre, u.y a fraction of a turn.
     template <RealOf<T> R = T>
-    [[nodiscard]] SurfaceSample<R> sample(glm::vec<2, R> u) const noexcept {
+    [[nodiscard]] LUMIS_HD SurfaceSample<R> sample(glm::vec<2, R> u) const noexcept {
         using Vector = glm::vec<3, R>;
         const R distance = radius_ * real::sqrt(u.x);
         const auto circle = unit_circle(u.y);
@@ -43,7 +44,7 @@ class DiskView {
 
     // w: unit. The rim gives way by the rounding of w, so that a direction drawn to it meets the disk.
     template <RealOf<T> R = T>
-    [[nodiscard]] SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
         const R cos_light = glm::dot(w, Direction<R>(frame_.normal()));
         const R distance = real::quotient_where(real::abs(cos_light) > 0, R(height_), cos_light);
         // Both sides times the cosine, which may be next to 0.
@@ -52,7 +53,7 @@ class DiskView {
         return hit_if(distance > 0 && glm::dot(across, across) <= radius * radius, distance, cos_light);
     }
 
-    [[nodiscard]] glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
         const T cos_light = glm::dot(w, frame_.normal());
         const T distance = real::quotient_where(std::abs(cos_light) > 0, height_, cos_light);
         const glm::vec<3, T> across = real::rounded(distance * w - center_);

@@ -26,13 +26,13 @@ template <std::floating_point T>
 using Wide = std::conditional_t<std::same_as<T, float>, double, T>;
 
 template <std::floating_point T>
-[[nodiscard]] T longest_component(const glm::vec<3, T>& v) noexcept {
+[[nodiscard]] LUMIS_HD T longest_component(const glm::vec<3, T>& v) noexcept {
     return real::greater(real::greater(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
 }
 
 // The largest power of two that is not above x, but at least the smallest normal number.
 template <std::floating_point T>
-[[nodiscard]] T power_of_two(T x) noexcept {
+[[nodiscard]] LUMIS_HD T power_of_two(T x) noexcept {
     using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
     constexpr auto exponent = std::bit_cast<Bits>(std::numeric_limits<T>::infinity());
     return std::bit_cast<T>(std::bit_cast<Bits>(real::greater((std::numeric_limits<T>::min)(), x)) & exponent);
@@ -88,7 +88,7 @@ struct FlatShape {
         }
     }
 
-    static Vector difference(const glm::vec<3, Scalar>& to, const glm::vec<3, Scalar>& from) noexcept {
+    LUMIS_HD static Vector difference(const glm::vec<3, Scalar>& to, const glm::vec<3, Scalar>& from) noexcept {
         return real::rounded(Vector(to) - Vector(from));
     }
 };

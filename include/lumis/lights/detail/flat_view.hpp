@@ -39,7 +39,7 @@ class FlatView {
         rounding_v_ = rounding * detail::longest_component(across_v_);
     }
 
-    [[nodiscard]] T area() const noexcept { return area_; }
+    [[nodiscard]] LUMIS_HD T area() const noexcept { return area_; }
 
     // u in [0,1]^2. Triangles by the square-root map (Turk 1990), which folds nothing and so keeps strata together.
     template <RealOf<T> R = T>
@@ -56,13 +56,13 @@ class FlatView {
 
     // To the plane; 0 parallel to it.
     template <RealOf<T> R = T>
-    [[nodiscard]] R distance_along(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept {
         const R cos_light = glm::dot(w, Direction<R>(normal_));
         return real::quotient_where(real::abs(cos_light) > 0, R(height_), cos_light);
     }
 
     // The u that sample maps to the point that w meets.
-    [[nodiscard]] glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
         const T cos_light = glm::dot(w, normal_);
         const bool meets = std::abs(cos_light) > 0;
         const T s = real::quotient_where(meets, glm::dot(w, across_u_), cos_light);
@@ -77,7 +77,7 @@ class FlatView {
     // w: unit. By triple products (Moller and Trumbore 1997), which are compared before they are divided by the cosine. The
     // edges give way by the rounding of w, so that a direction drawn to a point on an edge meets it.
     template <RealOf<T> R = T>
-    [[nodiscard]] SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
         const R cos_light = glm::dot(w, Direction<R>(normal_));
         const R distance = real::quotient_where(real::abs(cos_light) > 0, R(height_), cos_light);
         const R reach = real::abs(cos_light), sign = real::copysign(R(T(1)), cos_light);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lumis/core/detail/for_each_index.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/sample.hpp"
 #include "lumis/core/strategy.hpp"
@@ -37,7 +38,7 @@ inline constexpr std::size_t no_index = ~std::size_t{};
 
 // The least of `nearest` and the distances to the lights among the strategies along w, except that to number `skipped`.
 template <std::size_t skipped = no_index, class... S, class Point, std::floating_point T>
-[[nodiscard]] T nearest_along(const std::tuple<S...>& strategies, const Point& w, T nearest) noexcept {
+[[nodiscard]] LUMIS_HD T nearest_along(const std::tuple<S...>& strategies, const Point& w, T nearest) noexcept {
     for_each_index<sizeof...(S)>([&](auto k) {
         using Other = std::remove_cvref_t<std::tuple_element_t<k, std::tuple<S...>>>;
         if constexpr (k != skipped && LightStrategy<Other>) {
@@ -54,7 +55,7 @@ struct WithDistance : Drawn {
 };
 
 template <class Drawn, std::floating_point T>
-[[nodiscard]] auto with_distance(const Drawn& sample, T distance) noexcept {
+[[nodiscard]] LUMIS_HD auto with_distance(const Drawn& sample, T distance) noexcept {
     if constexpr (requires { sample.distance; }) {
         Drawn result{sample};
         result.distance = distance;
@@ -68,7 +69,7 @@ template <class Drawn, std::floating_point T>
 
 // A drawn sample's own distance; infinity for one that has none.
 template <std::floating_point T>
-[[nodiscard]] T own_distance(const auto& sample) noexcept {
+[[nodiscard]] LUMIS_HD T own_distance(const auto& sample) noexcept {
     if constexpr (requires { sample.distance; }) {
         return sample.distance;
     } else {

@@ -45,12 +45,12 @@ class SphereView {
         }
     }
 
-    [[nodiscard]] T area() const noexcept { return 4 * std::numbers::pi_v<T> * radius_ * radius_; }
+    [[nodiscard]] LUMIS_HD T area() const noexcept { return 4 * std::numbers::pi_v<T> * radius_ * radius_; }
 
-    [[nodiscard]] T solid_angle() const noexcept { return 2 * std::numbers::pi_v<T> * versine_; }
+    [[nodiscard]] LUMIS_HD T solid_angle() const noexcept { return 2 * std::numbers::pi_v<T> * versine_; }
 
     template <RealOf<T> R = T>
-    [[nodiscard]] SurfaceSample<R> sample(glm::vec<2, R> u) const noexcept {
+    [[nodiscard]] LUMIS_HD SurfaceSample<R> sample(glm::vec<2, R> u) const noexcept {
         const Direction<R> normal = direction_at(R(2 * u.x), u.y);
         SurfaceSample<R> drawn{glm::vec<3, R>(center_) + R(radius_) * normal};
         const R towards = -glm::dot(drawn.position, normal);
@@ -74,7 +74,7 @@ class SphereView {
     }
 
     // The u of a direction towards the sphere.
-    [[nodiscard]] glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
         const glm::vec<3, T> chord = real::rounded(w - axis_.normal());
         const Direction<T> local = axis_.to_local(w);
         return {real::quotient_where(versine_ > 0, glm::dot(chord, chord), 2 * versine_), turn_of(local.x, local.y)};
@@ -83,14 +83,14 @@ class SphereView {
     // Whether w points at the sphere. The chord between w and the axis keeps its digits where their cosine has none;
     // it gives way by the rounding of w, so that a direction drawn at the rim is found on the sphere.
     template <RealOf<T> R = T>
-    [[nodiscard]] MaskOf<R> contains(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD MaskOf<R> contains(const Direction<R>& w) const noexcept {
         return inside_ || real::length(real::rounded(w - Direction<R>(axis_.normal()))) <= chord_;
     }
 
     // Where the line passes the centre follows from the chord too: from the centre itself, it is rounded by as much as the
     // sphere is far away.
     template <RealOf<T> R = T>
-    [[nodiscard]] SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
         const Direction<R> chord = real::rounded(w - Direction<R>(axis_.normal()));
         const R versine = glm::dot(chord, chord) / 2, sine = real::sqrt_or_zero(R(versine * (2 - versine)));
         const R along = distance_ * (1 - versine), across = distance_ * sine;
@@ -101,14 +101,14 @@ class SphereView {
   private:
     // Half the length of the chord that a line cuts out of the sphere when it passes its centre at a distance `across`.
     template <Real R>
-    [[nodiscard]] R half_chord_at(R across) const noexcept {
+    [[nodiscard]] LUMIS_HD R half_chord_at(R across) const noexcept {
         return real::sqrt_or_zero(R(real::rounded(radius_ - across) * (radius_ + across)));
     }
 
     // To the first point on the sphere ahead, for a ray whose closest approach to the centre is `along` ahead and
     // `across` aside. From outside, along - half chord would cancel; the product of both roots does not.
     template <Real R>
-    [[nodiscard]] R distance_along(R along, R across) const noexcept {
+    [[nodiscard]] LUMIS_HD R distance_along(R along, R across) const noexcept {
         const R far_root = along + half_chord_at(across);
         return inside_ ? far_root : real::quotient_where(far_root > 0, R(tangent_squared_), far_root);
     }

@@ -87,13 +87,13 @@ class SphericalRectangle {
                       (omega > Wide(0.5) || (abc >= least * (b * b) && acd >= least * (d * d)));
     }
 
-    [[nodiscard]] T solid_angle() const noexcept { return solid_angle_; }
+    [[nodiscard]] LUMIS_HD T solid_angle() const noexcept { return solid_angle_; }
 
     // Whether samples are even up to 1e-4 of the edges.
-    [[nodiscard]] bool has_digits() const noexcept { return has_digits_; }
+    [[nodiscard]] LUMIS_HD bool has_digits() const noexcept { return has_digits_; }
 
     // The unit of its points.
-    [[nodiscard]] T unit() const noexcept { return unit_; }
+    [[nodiscard]] LUMIS_HD T unit() const noexcept { return unit_; }
 
     // Relative to the reference point, on the rectangle. u.x goes along the first edge, u.y along the second.
     template <RealOf<T> R = T>
@@ -112,7 +112,7 @@ class SphericalRectangle {
     }
 
     // position: relative to the reference point, on the rectangle or towards it.
-    [[nodiscard]] glm::vec<2, T> invert(const glm::vec<3, T>& position) const noexcept {
+    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const glm::vec<3, T>& position) const noexcept {
         const glm::vec<3, T> local{glm::dot(position, x_), glm::dot(position, y_), glm::dot(position, z_)};
         const T to_plane = real::quotient_where(local.z < 0, near_.z, local.z), x = local.x * to_plane,
                 y = local.y * to_plane;
@@ -126,32 +126,32 @@ class SphericalRectangle {
 
   private:
     template <Real R>
-    static R length(R x, R y) noexcept {
+    LUMIS_HD static R length(R x, R y) noexcept {
         return real::sqrt(R(x * x + y * y));
     }
 
     // The sine of the elevation of the point (x, y) over that at y = 0 on the line at x, which is d away.
     template <Real R>
-    static R sine(R y, R d) noexcept {
+    LUMIS_HD static R sine(R y, R d) noexcept {
         return real::divide(y, length(d, y));
     }
 
     // x / sqrt(square), or next to infinity where rounding has left no square.
     template <Real R>
-    static R ratio(R x, R square) noexcept {
+    LUMIS_HD static R ratio(R x, R square) noexcept {
         return real::divide(x, real::sqrt(real::greater(square, (std::numeric_limits<T>::min)())));
     }
 
     // p q + p.q of the lengths of p and q, their product, and the square of p x q: for p and q nearly opposite to each
     // other the sum has no digits.
-    static Wide sum_of_products(Wide lengths, Wide dot, Wide cross_squared) noexcept {
+    LUMIS_HD static Wide sum_of_products(Wide lengths, Wide dot, Wide cross_squared) noexcept {
         return dot >= 0 ? lengths + dot : real::divide(cross_squared, real::rounded(lengths - dot));
     }
 
     // The sum of two angles at corners, in turns. The planes from the reference point through the edges that meet at (x, y)
     // have an angle of cosine and sine in proportion to -+x y, which is p.x, and |z| times the corner's distance, p.y.
     template <std::floating_point S>
-    static S turn_of_sum(S z, const glm::vec<2, S>& p, const glm::vec<2, S>& q) noexcept {
+    LUMIS_HD static S turn_of_sum(S z, const glm::vec<2, S>& p, const glm::vec<2, S>& q) noexcept {
         const S p_sine = -z * p.y, q_sine = -z * q.y;
         return turn_of(real::rounded(p.x * q.x - p_sine * q_sine), real::rounded(p.x * q_sine + p_sine * q.x));
     }

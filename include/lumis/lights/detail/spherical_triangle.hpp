@@ -89,7 +89,7 @@ class SphericalTriangle {
         end_ = glm::vec<2, T>{static_cast<T>(sum * inverse_length), static_cast<T>(det * inverse_length)};
     }
 
-    [[nodiscard]] T solid_angle() const noexcept { return solid_angle_; }
+    [[nodiscard]] LUMIS_HD T solid_angle() const noexcept { return solid_angle_; }
 
     // u.x cuts off a share of the solid angle by an arc from a to the edge bc; u.y goes along that arc.
     template <RealOf<T> R = T>
@@ -112,7 +112,7 @@ class SphericalTriangle {
                Direction<R>(to_c_) * (arc.p.y * sine_over_p);
     }
 
-    [[nodiscard]] glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
         const glm::vec<3, T> aw = real::rounded(w - a_);
         // (cos, sin) of the direction in which the arc aw leaves a, and of beta, each times any length.
         const T to_b = glm::dot(aw, to_b_), to_c = glm::dot(aw, to_c_), one_minus_cos = reach_ * reach_;
@@ -170,11 +170,11 @@ class SphericalTriangle {
     }
 
     template <Real R>
-    static R inverse(R x) noexcept {
+    LUMIS_HD static R inverse(R x) noexcept {
         return real::divide(R(scalar_of<R>(1)), x);
     }
 
-    static bool in_range(Wide x) noexcept {
+    LUMIS_HD static bool in_range(Wide x) noexcept {
         return x >= (std::numeric_limits<Wide>::min)() && x <= (std::numeric_limits<Wide>::max)();
     }
 

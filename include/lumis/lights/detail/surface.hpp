@@ -2,6 +2,7 @@
 // reference point.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/sample.hpp"
 
 #include <concepts>
@@ -25,13 +26,14 @@ struct SurfaceHit {
 
 // The hit where there is one, nowhere elsewhere.
 template <Real R>
-[[nodiscard]] SurfaceHit<R> hit_if(const MaskOf<R>& met, R distance, std::type_identity_t<R> cos_light) noexcept {
+[[nodiscard]] LUMIS_HD SurfaceHit<R> hit_if(const MaskOf<R>& met, R distance,
+                                            std::type_identity_t<R> cos_light) noexcept {
     return {real::select(met, distance, 0), real::select(met, cos_light, 0)};
 }
 
 // How far away the hit is; infinity for none.
 template <Real R>
-[[nodiscard]] R distance_or_infinity(const SurfaceHit<R>& hit) noexcept {
+[[nodiscard]] LUMIS_HD R distance_or_infinity(const SurfaceHit<R>& hit) noexcept {
     return real::select(hit.distance > 0, hit.distance, std::numeric_limits<scalar_of<R>>::infinity());
 }
 

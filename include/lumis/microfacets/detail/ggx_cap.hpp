@@ -36,7 +36,7 @@ class GgxCap {
 
     // u.x = 0 is the top of the cap, u.y = phi / 2 pi.
     template <RealOf<T> R = T>
-    [[nodiscard]] Sample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
+    [[nodiscard]] LUMIS_HD Sample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         const Direction<R> normal = along_normal(u);
         const R length = real::length(normal);
         Sample<Direction<R>, R> drawn{real::divide(normal, real::divisor_where(length > 0, length))};
@@ -54,24 +54,24 @@ class GgxCap {
     }
 
     template <RealOf<T> R = T>
-    [[nodiscard]] R pdf(const Direction<R>& wm) const noexcept {
+    [[nodiscard]] LUMIS_HD R pdf(const Direction<R>& wm) const noexcept {
         return density_or_zero(R(glm::dot(Direction<R>(wo_), wm) * pdf_per_cosine(wm)));
     }
 
     // pdf(wm) / wo.wm for normals that wo sees, which is all that reflection leaves of it. wm may have any length.
     template <RealOf<T> R = T>
-    [[nodiscard]] R pdf_per_cosine(const Direction<R>& wm) const noexcept {
+    [[nodiscard]] LUMIS_HD R pdf_per_cosine(const Direction<R>& wm) const noexcept {
         return masking_ * ggx_.D(wm);
     }
 
-    [[nodiscard]] glm::vec<2, T> invert(const Point& wm) const noexcept {
+    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& wm) const noexcept {
         const Direction<T> stretched{real::divide(wm.x, ggx_.alpha().x), real::divide(wm.y, ggx_.alpha().y), wm.z};
         const Direction<T> half = real::divide(stretched, real::length(stretched));
         const Direction<T> reflected = 2 * glm::dot(wo_std_, half) * half - wo_std_;
         return {real::divide(versine_of(reflected), cap_height_), turn_of(reflected.x, reflected.y)};
     }
 
-    [[nodiscard]] const Ggx<T>& ggx() const noexcept { return ggx_; }
+    [[nodiscard]] LUMIS_HD const Ggx<T>& ggx() const noexcept { return ggx_; }
 
   private:
     Ggx<T> ggx_;

@@ -13,6 +13,7 @@
 // alone is stored as its own alias, with no own counts.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/tables/detail/cumulative_counts.hpp"
 
@@ -29,7 +30,7 @@ template <class T>
 class AliasRows {
   public:
     // `rows` tables of `entries` weights. Keeps 8 bytes a weight.
-    AliasRows(std::size_t entries, std::size_t rows)
+    LUMIS_HD AliasRows(std::size_t entries, std::size_t rows)
         : entries_{entries},
           capacity_{static_cast<std::uint32_t>(total_counts<T> / entries)},
           larger_bins_{static_cast<std::uint32_t>(total_counts<T> % entries)},
@@ -38,11 +39,11 @@ class AliasRows {
           reciprocal_{((std::uint64_t{1} << division_shift_) + entries - 1) / entries},
           bins_(rows * entries) {}
 
-    [[nodiscard]] std::size_t entries() const noexcept { return entries_; }
-    [[nodiscard]] std::size_t memory_bytes() const noexcept { return bins_.size() * sizeof(Bin); }
+    [[nodiscard]] LUMIS_HD std::size_t entries() const noexcept { return entries_; }
+    [[nodiscard]] LUMIS_HD std::size_t memory_bytes() const noexcept { return bins_.size() * sizeof(Bin); }
 
     // Sets one row; different rows may be dealt at the same time.
-    Dealt deal(std::size_t row, std::span<const double> weights) {
+    LUMIS_HD Dealt deal(std::size_t row, std::span<const double> weights) {
         std::vector<std::uint32_t> counts(entries_ + 1, total_counts<T>);
         const Dealt dealt = deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return counts[i]; });
         for (std::size_t i = 0; i < entries_; ++i) counts[i] = counts[i + 1] - counts[i];
@@ -51,7 +52,7 @@ class AliasRows {
     }
 
     // u in [0, 1]. An entry of weight 0 is never drawn.
-    [[nodiscard]] DrawnEntry<T> draw(std::size_t row, T u) const noexcept {
+    [[nodiscard]] LUMIS_HD DrawnEntry<T> draw(std::size_t row, T u) const noexcept {
         // 1. The bin that holds the count: floor(count entries / total_counts).
         const auto [count, within] = lattice_point(u);
         const std::uint64_t scaled = std::uint64_t{count} * entries_;
@@ -77,7 +78,7 @@ class AliasRows {
     }
 
     // The number of counts of an entry.
-    [[nodiscard]] std::uint32_t counts(std::size_t row, std::size_t i) const noexcept {
+    [[nodiscard]] LUMIS_HD std::uint32_t counts(std::size_t row, std::size_t i) const noexcept {
         const Bin bin = bins_[row * entries_ + i];
         return bin.is_light() ? bin.own_and_alias & own_mask() : bin.heavy_counts();
     }
@@ -87,21 +88,21 @@ class AliasRows {
     //     heavy_and_kind   | light: bit 31 | counts of the heavy entry, less 1: bits 0 to 30 |
     // The heavy entry is the bin's own, or a light bin's alias.
     struct Bin {
-        Bin() noexcept {}
-        Bin(std::uint32_t own_and_alias_, std::uint32_t heavy, bool light) noexcept
+        LUMIS_HD Bin() noexcept {}
+        LUMIS_HD Bin(std::uint32_t own_and_alias_, std::uint32_t heavy, bool light) noexcept
             : own_and_alias{own_and_alias_}, heavy_and_kind{(heavy - 1) | (light ? light_bit : 0)} {}
 
         static constexpr std::uint32_t light_bit = std::uint32_t{1} << 31;
-        [[nodiscard]] bool is_light() const noexcept { return heavy_and_kind >= light_bit; }
-        [[nodiscard]] std::uint32_t heavy_counts() const noexcept { return (heavy_and_kind & ~light_bit) + 1; }
+        [[nodiscard]] LUMIS_HD bool is_light() const noexcept { return heavy_and_kind >= light_bit; }
+        [[nodiscard]] LUMIS_HD std::uint32_t heavy_counts() const noexcept { return (heavy_and_kind & ~light_bit) + 1; }
 
         std::uint32_t own_and_alias, heavy_and_kind;
     };
 
-    [[nodiscard]] std::uint32_t own_mask() const noexcept { return (std::uint32_t{1} << own_bits_) - 1; }
+    [[nodiscard]] LUMIS_HD std::uint32_t own_mask() const noexcept { return (std::uint32_t{1} << own_bits_) - 1; }
 
     // The counts of a bin: those from ceil(bin total_counts / entries) on.
-    [[nodiscard]] std::uint32_t capacity(std::size_t bin) const noexcept {
+    [[nodiscard]] LUMIS_HD std::uint32_t capacity(std::size_t bin) const noexcept {
         if (larger_bins_ == 0) return capacity_;
         const auto extra = [&](std::uint64_t i) { return (i * larger_bins_ + entries_ - 1) / entries_; };
         return capacity_ + static_cast<std::uint32_t>(extra(bin + 1) - extra(bin));
@@ -110,7 +111,7 @@ class AliasRows {
     // Sets the bins of a row. One index sweeps over the light entries and one over the heavy ones (Huebschle-Schneider and
     // Sanders 2022, "Parallel Weighted Random Sampling"): no lists are needed, and the same heavy entry fills neighbouring
     // bins.
-    void fill(Bin* bins, std::span<const std::uint32_t> counts) const noexcept {
+    LUMIS_HD void fill(Bin* bins, std::span<const std::uint32_t> counts) const noexcept {
         const auto packed = [&](std::uint32_t own, std::size_t alias) {
             return static_cast<std::uint32_t>(alias << own_bits_) | own;
         };

@@ -3,6 +3,7 @@
 // within rows, is GuidedRows or AliasRows; the row itself is always drawn by a guided table.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/tables/detail/cumulative_counts.hpp"
 #include "lumis/tables/detail/guided_rows.hpp"
@@ -39,7 +40,7 @@ class CountGrid {
 
     // A grid yet to be dealt. Throws std::invalid_argument for a size of 0 or beyond the number of counts, and if `values`, the
     // number of weights that there are, is not width x height.
-    CountGrid(std::integral auto width, std::integral auto height, std::size_t values)
+    LUMIS_HD CountGrid(std::integral auto width, std::integral auto height, std::size_t values)
         : width_{checked(width, "width")},
           height_{checked(height, "height", width_, values)},
           rows_{height_, 1},
@@ -48,7 +49,7 @@ class CountGrid {
     // weights_of(row, weights) sets the weights of a row's cells, finite and not negative. scale(row), at most 4, is what a
     // row's sum of weights is multiplied by. for_each_row runs the rows, see InOrder. Throws if counts are too few for the weights, see
     // require_enough_counts.
-    void deal(auto weights_of, auto scale, const auto& for_each_row) {
+    LUMIS_HD void deal(auto weights_of, auto scale, const auto& for_each_row) {
         std::vector<Dealt> sums(height_);
         for_each_row(height_, [&](std::size_t row) {
             std::vector<double> weights(width_);
@@ -73,15 +74,17 @@ class CountGrid {
         require_enough_counts<T>(rows_.deal(0, weights));
     }
 
-    [[nodiscard]] std::size_t width() const noexcept { return width_; }
-    [[nodiscard]] std::size_t height() const noexcept { return height_; }
-    [[nodiscard]] bool empty() const noexcept { return empty_; }
-    [[nodiscard]] std::size_t memory_bytes() const noexcept { return rows_.memory_bytes() + cells_.memory_bytes(); }
+    [[nodiscard]] LUMIS_HD std::size_t width() const noexcept { return width_; }
+    [[nodiscard]] LUMIS_HD std::size_t height() const noexcept { return height_; }
+    [[nodiscard]] LUMIS_HD bool empty() const noexcept { return empty_; }
+    [[nodiscard]] LUMIS_HD std::size_t memory_bytes() const noexcept {
+        return rows_.memory_bytes() + cells_.memory_bytes();
+    }
 
     // u.y draws the row, u.x the cell within it. The position stays a few units in the last place clear of the cell's edges:
     // a point rounded across one would be given the density of one cell and belong to another. An empty grid draws its
     // last cell.
-    [[nodiscard]] Drawn draw(glm::vec<2, T> u) const noexcept {
+    [[nodiscard]] LUMIS_HD Drawn draw(glm::vec<2, T> u) const noexcept {
         const auto row = rows_.draw(0, u.y);
         const auto column = cells_.draw(row.index, u.x);
         return {column.index,
@@ -91,7 +94,8 @@ class CountGrid {
     }
 
     // The u that draws a point.
-    [[nodiscard]] glm::vec<2, T> invert(const Located& point) const noexcept requires requires(const Rows<T>& rows) {
+    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Located& point) const noexcept requires
+        requires(const Rows<T>& rows) {
         rows.uniform_of(0, 0, T(0));
     }
     {
@@ -100,12 +104,12 @@ class CountGrid {
     }
 
     // The probability of a row, and of a cell given its row, in counts.
-    [[nodiscard]] std::uint32_t row_counts(std::size_t row) const noexcept { return rows_.counts(0, row); }
-    [[nodiscard]] std::uint32_t cell_counts(std::size_t column, std::size_t row) const noexcept {
+    [[nodiscard]] LUMIS_HD std::uint32_t row_counts(std::size_t row) const noexcept { return rows_.counts(0, row); }
+    [[nodiscard]] LUMIS_HD std::uint32_t cell_counts(std::size_t column, std::size_t row) const noexcept {
         return cells_.counts(row, column);
     }
 
-    [[nodiscard]] Located locate(glm::vec<2, T> x) const noexcept {
+    [[nodiscard]] LUMIS_HD Located locate(glm::vec<2, T> x) const noexcept {
         const std::size_t column = index_of(x.x, width_), row = index_of(x.y, height_);
         return {column,
                 row,
@@ -114,7 +118,7 @@ class CountGrid {
     }
 
   private:
-    static std::size_t checked(std::integral auto extent, const char* name) {
+    LUMIS_HD static std::size_t checked(std::integral auto extent, const char* name) {
         if (extent <= 0 || std::cmp_greater(extent, total_counts<T>)) {
             throw std::invalid_argument(std::string("lumis: a grid's ") + name + " is " + std::to_string(extent) +
                                         "; it must be from 1 to " + std::to_string(total_counts<T>));
@@ -122,7 +126,8 @@ class CountGrid {
         return static_cast<std::size_t>(extent);
     }
 
-    static std::size_t checked(std::integral auto extent, const char* name, std::size_t width, std::size_t values) {
+    LUMIS_HD static std::size_t checked(std::integral auto extent, const char* name, std::size_t width,
+                                        std::size_t values) {
         const std::size_t height = checked(extent, name);
         if (values != width * height) {
             throw std::invalid_argument("lumis: a grid of " + std::to_string(width) + " x " + std::to_string(height) +

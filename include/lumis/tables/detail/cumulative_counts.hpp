@@ -3,6 +3,7 @@
 // sums stands in for it (in float those are off by 1 to 4 % in the worst texel of a 4K environment map).
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/uniforms.hpp"
 
@@ -29,20 +30,20 @@ inline constexpr std::uint32_t total_counts = std::uint32_t{1} << count_bits<T>;
 // How tables are built unless the host brings threads of its own: f(0), f(1), ..., f(n - 1), one after the other. A
 // host's own loop may call f in any order and at the same time; the tables come out the same.
 struct InOrder {
-    void operator()(std::size_t n, auto f) const {
+    LUMIS_HD void operator()(std::size_t n, auto f) const {
         for (std::size_t i = 0; i < n; ++i) f(i);
     }
 };
 
 template <std::floating_point T>
-[[nodiscard]] constexpr bool is_weight(T weight) noexcept {
+[[nodiscard]] LUMIS_HD constexpr bool is_weight(T weight) noexcept {
     return weight >= 0 && weight <= (std::numeric_limits<T>::max)();
 }
 
 // Throws std::invalid_argument naming the index and the value of the first weight that is NaN, infinite or negative.
 // They are looked at in rows of the given size, see InOrder.
 template <std::floating_point T>
-void require_weights(std::span<const T> weights, std::size_t row_size, const auto& for_each_row) {
+LUMIS_HD void require_weights(std::span<const T> weights, std::size_t row_size, const auto& for_each_row) {
     std::vector<char> is_bad(weights.size() / row_size);
     for_each_row(is_bad.size(), [&](std::size_t row) {
         int bad = 0;  // counted, not searched for: that is done several at a time
@@ -56,7 +57,7 @@ void require_weights(std::span<const T> weights, std::size_t row_size, const aut
                                 "; weights must be finite and not negative");
 }
 template <std::floating_point T>
-void require_weights(std::span<const T> weights) {
+LUMIS_HD void require_weights(std::span<const T> weights) {
     if (!weights.empty()) require_weights(weights, weights.size(), InOrder{});
 }
 
@@ -65,7 +66,7 @@ struct ScaledSum {
     double value{};
     int exponent{};
 
-    [[nodiscard]] double relative_to(int other_exponent) const noexcept {
+    [[nodiscard]] LUMIS_HD double relative_to(int other_exponent) const noexcept {
         return std::scalbn(value, exponent - other_exponent);
     }
 };
@@ -81,7 +82,7 @@ struct Dealt : ScaledSum {
 // but at least one for every weight above 0, and none for weight 0. weights: finite, not negative, not more than there are
 // counts; all 0 leaves every count to the last entry.
 template <std::floating_point T>
-Dealt deal_counts(std::span<const double> weights, auto start_of) {
+LUMIS_HD Dealt deal_counts(std::span<const double> weights, auto start_of) {
     // 1. The sum, in units of a power of two near the largest weight where it would leave double's range.
     double sum = 0, scale = 1;
     int exponent = 0;
@@ -146,7 +147,7 @@ inline constexpr double largest_excess = 0.25;
 // Throws std::invalid_argument if the counts are too few for the weights: so many of them are dim that what they take is
 // missing elsewhere. Up to a quarter of total_counts<T> weights (4 million in float) are never too many.
 template <std::floating_point T>
-void require_enough_counts(const Dealt& dealt) {
+LUMIS_HD void require_enough_counts(const Dealt& dealt) {
     if (dealt.excess <= largest_excess) return;
     throw std::invalid_argument(
         "lumis: " + std::to_string(dealt.dim) + " weights are less than 1/" + std::to_string(total_counts<T>) +
@@ -174,7 +175,7 @@ struct LatticePoint {
 
 // u in [0, 1].
 template <std::floating_point T>
-[[nodiscard]] LatticePoint<T> lattice_point(T u) noexcept {
+[[nodiscard]] LUMIS_HD LatticePoint<T> lattice_point(T u) noexcept {
     constexpr int within_bits = uniform_bits<T> - count_bits<T>;
     constexpr std::uint64_t size = std::uint64_t{1} << within_bits;
     const std::uint64_t lattice = lattice_index(u);
@@ -184,7 +185,7 @@ template <std::floating_point T>
 
 // The one of n equal cells of [0, 1] that holds x; beyond them the nearest, and the first for a NaN.
 template <std::floating_point T>
-[[nodiscard]] std::size_t index_of(T x, std::size_t n) noexcept {
+[[nodiscard]] LUMIS_HD std::size_t index_of(T x, std::size_t n) noexcept {
     const T scaled = x * static_cast<T>(n);
     if (!(scaled > 0)) return 0;
     return scaled < static_cast<T>(n) ? static_cast<std::size_t>(scaled) : n - 1;
@@ -193,14 +194,14 @@ template <std::floating_point T>
 // A position within one of n equal cells of [0, 1], moved a few units in the last place of 1 away from the cell's edges:
 // rounded across one, a point would be given the density of one cell and belong to another.
 template <std::floating_point T>
-[[nodiscard]] T clear_of_edges(T position, std::size_t n) noexcept {
+[[nodiscard]] LUMIS_HD T clear_of_edges(T position, std::size_t n) noexcept {
     const T margin = real::lesser(8 * std::numeric_limits<T>::epsilon() * static_cast<T>(n), T(0.5));
     return real::clamp(position, margin, 1 - margin);
 }
 
 // The number of entries of a table, if counts can be dealt to them; throws std::invalid_argument if not.
 template <std::floating_point T>
-[[nodiscard]] std::size_t checked_size(std::size_t size) {
+[[nodiscard]] LUMIS_HD std::size_t checked_size(std::size_t size) {
     if (size == 0 || size > total_counts<T>) {
         throw std::invalid_argument("lumis: a table of " + std::to_string(size) + " weights; there must be from 1 to " +
                                     std::to_string(total_counts<T>));

@@ -5,6 +5,7 @@
 // branches that we tried.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/tables/detail/cumulative_counts.hpp"
 
@@ -20,19 +21,19 @@ template <class T>
 class GuidedRows {
   public:
     // `rows` tables of `entries` weights. Keeps 6 bytes a weight, and 6 more a row.
-    GuidedRows(std::size_t entries, std::size_t rows)
+    LUMIS_HD GuidedRows(std::size_t entries, std::size_t rows)
         : entries_{entries},
           guide_shift_{entries > 0x10000 ? static_cast<int>(std::bit_width(entries - 1)) - 16 : 0},
           starts_(rows * (entries_ + 1)),
           guide_(rows * (entries_ + 1)) {}
 
-    [[nodiscard]] std::size_t entries() const noexcept { return entries_; }
-    [[nodiscard]] std::size_t memory_bytes() const noexcept {
+    [[nodiscard]] LUMIS_HD std::size_t entries() const noexcept { return entries_; }
+    [[nodiscard]] LUMIS_HD std::size_t memory_bytes() const noexcept {
         return starts_.size() * sizeof(Start) + guide_.size() * sizeof(Guide);
     }
 
     // Sets one row; different rows may be dealt at the same time.
-    Dealt deal(std::size_t row, std::span<const double> weights) {
+    LUMIS_HD Dealt deal(std::size_t row, std::span<const double> weights) {
         Start* const starts = &starts_[row * (entries_ + 1)];
         const Dealt dealt = deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return starts[i].value; });
         starts[entries_].value = total_counts<T>;
@@ -49,7 +50,7 @@ class GuidedRows {
     }
 
     // u in [0, 1]. An entry of weight 0 is never drawn.
-    [[nodiscard]] DrawnEntry<T> draw(std::size_t row, T u) const noexcept {
+    [[nodiscard]] LUMIS_HD DrawnEntry<T> draw(std::size_t row, T u) const noexcept {
         const auto [count, within] = lattice_point(u);
         const Start* const starts = starts_.data() + row * (entries_ + 1);
         const std::size_t run = (std::uint64_t{count} * entries_) >> count_bits<T>;
@@ -72,12 +73,12 @@ class GuidedRows {
     }
 
     // The number of counts of an entry.
-    [[nodiscard]] std::uint32_t counts(std::size_t row, std::size_t i) const noexcept {
+    [[nodiscard]] LUMIS_HD std::uint32_t counts(std::size_t row, std::size_t i) const noexcept {
         return start(row, i + 1) - start(row, i);
     }
 
     // The uniform that draws an entry at a position within its run: the inverse of draw.
-    [[nodiscard]] T uniform_of(std::size_t row, std::size_t i, T position) const noexcept {
+    [[nodiscard]] LUMIS_HD T uniform_of(std::size_t row, std::size_t i, T position) const noexcept {
         return (static_cast<T>(start(row, i)) + position * static_cast<T>(counts(row, i))) /
                static_cast<T>(total_counts<T>);
     }
@@ -85,15 +86,15 @@ class GuidedRows {
   private:
     // Not initialised, so that the threads that deal the rows are the first to touch their memory.
     struct Start {
-        Start() noexcept {}
+        LUMIS_HD Start() noexcept {}
         std::uint32_t value;
     };
     struct Guide {
-        Guide() noexcept {}
+        LUMIS_HD Guide() noexcept {}
         std::uint16_t value;
     };
 
-    [[nodiscard]] std::uint32_t start(std::size_t row, std::size_t i) const noexcept {
+    [[nodiscard]] LUMIS_HD std::uint32_t start(std::size_t row, std::size_t i) const noexcept {
         return starts_[row * (entries_ + 1) + i].value;
     }
 
