@@ -23,7 +23,7 @@ void keep(Results<T>& out) {
 // Small strategies are copied first, as the batch does: else every store might be one to their members.
 template <class T, class S>
 void sample_each(const S& strategy, const Uniforms<T>& u, std::size_t pass, Results<T>& out) {
-    const lumis::Held<const S&> held = strategy;
+    const lumis::detail::Held<const S&> held = strategy;
     const auto x = part(u.x, pass), y = part(u.y, pass);
     for (std::size_t i = 0; i < batch; ++i) {
         one_at_a_time(i);
@@ -37,7 +37,7 @@ void sample_each(const S& strategy, const Uniforms<T>& u, std::size_t pass, Resu
 
 template <class T, class S>
 void pdf_each(const S& strategy, const Directions<T>& w, std::size_t pass, Results<T>& out) {
-    const lumis::Held<const S&> held = strategy;
+    const lumis::detail::Held<const S&> held = strategy;
     const auto x = part(w.x, pass), y = part(w.y, pass), z = part(w.z, pass);
     for (std::size_t i = 0; i < batch; ++i) {
         one_at_a_time(i);

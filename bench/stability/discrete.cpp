@@ -51,7 +51,7 @@ Quad sum_of(const std::vector<T>& weights) {
 template <class T>
 void check_probabilities(Measured& measured, const std::vector<T>& weights, auto probability) {
     const Quad sum = sum_of(weights);
-    const double count = 1 / double{lumis::total_counts<T>};
+    const double count = 1 / double{lumis::detail::total_counts<T>};
     Quad total = 0;
     for (std::size_t i = 0; i < weights.size(); ++i) {
         const double p = probability(i);
@@ -71,11 +71,11 @@ void check_frequencies(Measured& measured, Effort effort, std::size_t entries, a
     if constexpr (std::same_as<T, float>) {
         if (effort.quick) return;
         std::vector<std::uint32_t> drawn(entries);
-        for (std::uint32_t k = 0; k < lumis::total_counts<T>; ++k) {
-            ++drawn[index_of_u(static_cast<T>(k) / static_cast<T>(lumis::total_counts<T>))];
+        for (std::uint32_t k = 0; k < lumis::detail::total_counts<T>; ++k) {
+            ++drawn[index_of_u(static_cast<T>(k) / static_cast<T>(lumis::detail::total_counts<T>))];
         }
         for (std::size_t i = 0; i < entries; ++i) {
-            const double frequency = drawn[i] / double{lumis::total_counts<T>}, p = probability(i);
+            const double frequency = drawn[i] / double{lumis::detail::total_counts<T>}, p = probability(i);
             if (p > 0 || frequency > 0) measured.error(std::abs(frequency - p) / p);
             measured.expect(p > 0 || drawn[i] == 0);
         }

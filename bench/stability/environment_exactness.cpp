@@ -101,7 +101,7 @@ Measured environment_exactness(Effort effort, std::size_t width) {
         sum += reported[x];
     }
     // Densities are rounded; the probability behind one is the whole number of counts next to it.
-    const double counts = double{lumis::total_counts<T>};
+    const double counts = double{lumis::detail::total_counts<T>};
     const std::uint64_t step = effort.quick ? 64 : 1;
     const auto drawn = frequencies_in_row<T>(map, inside.y, step);
     for (std::size_t x = 0; x < width; ++x) {

@@ -83,7 +83,7 @@ template <class T>
 void fuzz_1d(Input& input, const std::vector<T>& weights) {
     const auto table = try_make(weights, !weights.empty(), [&] { return lumis::PiecewiseConstant1D{weights}; });
     if (!table) return;
-    const auto weight = [&](T x) { return weights[lumis::index_of(x, weights.size())]; };
+    const auto weight = [&](T x) { return weights[lumis::detail::index_of(x, weights.size())]; };
     check_samples(input, *table, weight);
     const double n = static_cast<double>(table->size());
     double mass = 0;
@@ -106,7 +106,7 @@ void fuzz_2d(Input& input, int width, int height, const std::vector<T>& weights)
     if (!table) return;
     const std::size_t w = table->width(), h = table->height();
     check_samples(input, *table, [&](const glm::vec<2, T>& x) {
-        return weights[lumis::index_of(x.y, h) * w + lumis::index_of(x.x, w)];
+        return weights[lumis::detail::index_of(x.y, h) * w + lumis::detail::index_of(x.x, w)];
     });
     double mass = 0;
     for (std::size_t i = 0; i < w * h; ++i) {
@@ -134,8 +134,8 @@ void fuzz_environment_map(Input& input, int width, int height, const std::vector
     const auto weight = [&](const glm::vec<3, T>& direction) {
         const auto uv = lumis::latlong_from_direction(direction);
         const auto w = static_cast<int>(map->width()), h = static_cast<int>(map->height());
-        const auto column = static_cast<int>(lumis::index_of(uv.x, map->width()));
-        const auto row = static_cast<int>(lumis::index_of(uv.y, map->height()));
+        const auto column = static_cast<int>(lumis::detail::index_of(uv.x, map->width()));
+        const auto row = static_cast<int>(lumis::detail::index_of(uv.y, map->height()));
         const int reach = options.interpolation == lumis::Interpolation::Bilinear ? 1 : 0;
         T largest = 0;
         for (int dy = -reach; dy <= reach; ++dy) {

@@ -155,7 +155,7 @@ TEMPLATE_TEST_CASE("tables find a cell for any number", "", float, double) {
     using T = TestType;
     // The cast of such a number to an index was undefined behaviour.
     for (const T x : {not_a_number<T>, infinity<T>, -infinity<T>, T(-1), std::numeric_limits<T>::max()}) {
-        CHECK(lumis::index_of(x, 5) == (x > 0 ? 4 : 0));
+        CHECK(lumis::detail::index_of(x, 5) == (x > 0 ? 4 : 0));
         const lumis::PiecewiseConstant1D table{std::vector<T>{1, 2}};
         (void)table.invert(x);
     }

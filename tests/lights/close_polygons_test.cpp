@@ -192,8 +192,8 @@ TEMPLATE_TEST_CASE("the shares of rectangles that pass close by", "[close_polygo
         const double height = std::pow(10, -3 + 3 * random()), width = std::pow(10, -1.5 + 1.5 * random());
         const T x0 = static_cast<T>(2 * random() - 0.5), z = static_cast<T>(height), y1 = static_cast<T>(width);
         const T y0 = static_cast<T>(std::copysign(std::pow(10, -2 + 2 * random()), random()));
-        const lumis::SphericalRectangle<T> seen{glm::vec<3, T>{x0, y0, z}, glm::vec<3, T>{T(2), T(0), T(0)},
-                                                glm::vec<3, T>{T(0), y1, T(0)}};
+        const lumis::detail::SphericalRectangle<T> seen{glm::vec<3, T>{x0, y0, z}, glm::vec<3, T>{T(2), T(0), T(0)},
+                                                        glm::vec<3, T>{T(0), y1, T(0)}};
         if (!seen.has_digits()) continue;
         ++number;
         const T u = static_cast<T>(0.5 + 0.5 * random());

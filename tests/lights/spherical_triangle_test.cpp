@@ -232,7 +232,7 @@ TEMPLATE_TEST_CASE("a triangle that reaches to the opposite of its vertex", "[sp
         const glm::vec<3, T> a{static_cast<T>(-2 - random()), static_cast<T>(random()), height};
         const glm::vec<3, T> far = T(-0.8) * a, along{-a.y, a.x, T(0)};
         const glm::vec<3, T> b{far.x + along.x, far.y + along.y, height}, c{far.x - along.x, far.y - along.y, height};
-        const lumis::SphericalTriangle<T> seen{a, b, c, b - a, c - a};
+        const lumis::detail::SphericalTriangle<T> seen{a, b, c, b - a, c - a};
         for (const T x : {T(0), T(0.25), T(0.5), T(0.75), T(1)}) {
             for (const T y : {T(0), T(0.5), 1 - std::numeric_limits<T>::epsilon() / 2, T(1)}) {
                 const double length = glm::length(glm::dvec3{seen.sample({x, y})});

@@ -66,7 +66,7 @@ TEMPLATE_TEST_CASE("the probabilities of an alias table sum to 1 and follow the 
         INFO(weights.size() << " weights");
         CHECK(sum == 1);  // whole counts, exactly
         // A count's rounding, and what dim ones take, which keep one count each.
-        CHECK(worst <= static_cast<double>(2 + weights.size()) / double{lumis::total_counts<T>});
+        CHECK(worst <= static_cast<double>(2 + weights.size()) / double{lumis::detail::total_counts<T>});
         CHECK(table.pdf(weights.size()) == 0);
         CHECK(table.pdf(std::numeric_limits<std::size_t>::max()) == 0);
     }

@@ -13,15 +13,15 @@
 
 namespace {
 
-template <class T, template <class> class Rows = lumis::GuidedRows>
-lumis::CountGrid<T, Rows> grid_of(std::size_t width, const std::vector<double>& weights,
-                                  const std::vector<double>& scales = {}) {
-    lumis::CountGrid<T, Rows> grid{width, weights.size() / width, weights.size()};
+template <class T, template <class> class Rows = lumis::detail::GuidedRows>
+lumis::detail::CountGrid<T, Rows> grid_of(std::size_t width, const std::vector<double>& weights,
+                                          const std::vector<double>& scales = {}) {
+    lumis::detail::CountGrid<T, Rows> grid{width, weights.size() / width, weights.size()};
     grid.deal(
         [&](std::size_t y, std::span<double> row) {
             for (std::size_t x = 0; x < width; ++x) row[x] = weights[y * width + x];
         },
-        [&](std::size_t y) { return scales.empty() ? 1.0 : scales[y]; }, lumis::InOrder{});
+        [&](std::size_t y) { return scales.empty() ? 1.0 : scales[y]; }, lumis::detail::InOrder{});
     return grid;
 }
 
@@ -48,21 +48,21 @@ TEMPLATE_TEST_CASE("a grid's rows and cells own every count and none without a w
             }
             rows += grid.row_counts(y);
             CHECK((grid.row_counts(y) > 0) == (row_weight > 0));
-            CHECK(cells == lumis::total_counts<T>);
+            CHECK(cells == lumis::detail::total_counts<T>);
         }
-        CHECK(rows == lumis::total_counts<T>);
+        CHECK(rows == lumis::detail::total_counts<T>);
         CHECK_FALSE(grid.empty());
     };
     for (const auto& weights : tables) {
         check(grid_of<T>(3, weights), weights);
-        check(grid_of<T, lumis::AliasRows>(3, weights), weights);
+        check(grid_of<T, lumis::detail::AliasRows>(3, weights), weights);
     }
 }
 
 TEMPLATE_TEST_CASE("a grid's rows are scaled as told", "[count_grid]", float, double) {
     using T = TestType;
     const auto grid = grid_of<T>(2, {1, 3, 2, 2, 4, 0}, {1, 2, 0.25});
-    const double all = lumis::total_counts<T>;  // rows weigh 4, 8 and 1
+    const double all = lumis::detail::total_counts<T>;  // rows weigh 4, 8 and 1
     CHECK(std::abs(grid.row_counts(0) / all - 4.0 / 13) <= 3 / all);
     CHECK(std::abs(grid.row_counts(1) / all - 8.0 / 13) <= 3 / all);
     CHECK(std::abs(grid.row_counts(2) / all - 1.0 / 13) <= 3 / all);
@@ -96,7 +96,7 @@ TEST_CASE("sizes that a grid refuses are named", "[count_grid]") {
     using Catch::Matchers::Contains;
     const auto refusal = [](auto width, auto height, std::size_t values) {
         try {
-            const lumis::CountGrid<float> grid{width, height, values};
+            const lumis::detail::CountGrid<float> grid{width, height, values};
         } catch (const std::invalid_argument& error) {
             return std::string{error.what()};
         }

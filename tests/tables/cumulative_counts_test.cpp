@@ -18,8 +18,8 @@ namespace {
 template <class T>
 std::vector<std::uint32_t> deal(const std::vector<double>& weights) {
     std::vector<std::uint32_t> starts(weights.size());
-    lumis::deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return starts[i]; });
-    starts.push_back(lumis::total_counts<T>);
+    lumis::detail::deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return starts[i]; });
+    starts.push_back(lumis::detail::total_counts<T>);
     return starts;
 }
 
@@ -43,7 +43,7 @@ TEMPLATE_TEST_CASE("counts are whole, complete, and at least one for every weigh
             REQUIRE((counts > 0) == (weights[i] > 0));
             total += counts;
         }
-        CHECK(total == lumis::total_counts<T>);
+        CHECK(total == lumis::detail::total_counts<T>);
     }
 }
 
@@ -56,7 +56,7 @@ TEMPLATE_TEST_CASE("shares follow the weights to one count", "[cumulative_counts
     for (auto& weight : weights) sum += weight = uniform(engine);
     const auto starts = deal<T>(weights);
     for (std::size_t i = 0; i < weights.size(); ++i) {
-        const double exact = weights[i] / sum * lumis::total_counts<T>;
+        const double exact = weights[i] / sum * lumis::detail::total_counts<T>;
         CHECK(std::abs(static_cast<double>(starts[i + 1] - starts[i]) - exact) <= 1 + 1e-6);
     }
 }
@@ -64,7 +64,7 @@ TEMPLATE_TEST_CASE("shares follow the weights to one count", "[cumulative_counts
 // What is dim (less than one count's worth) gets one count each, and the others are scaled down alike: nothing else is moved.
 TEMPLATE_TEST_CASE("only dim weights get more than their share", "[cumulative_counts]", float, double) {
     using T = TestType;
-    const double all = lumis::total_counts<T>;
+    const double all = lumis::detail::total_counts<T>;
     std::mt19937_64 engine{4};
     std::uniform_real_distribution<double> uniform{0.1, 1};
     for (const std::size_t number_dim : {0u, 1u, 1000u, 30'000u}) {
@@ -75,8 +75,9 @@ TEMPLATE_TEST_CASE("only dim weights get more than their share", "[cumulative_co
             if (weights[i] > 1e-3) bright += weights[i];
         }
         std::vector<std::uint32_t> starts(weights.size());
-        const auto dealt = lumis::deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return starts[i]; });
-        starts.push_back(lumis::total_counts<T>);
+        const auto dealt =
+            lumis::detail::deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return starts[i]; });
+        starts.push_back(lumis::detail::total_counts<T>);
         CHECK(dealt.dim == number_dim);
         CHECK(std::abs(dealt.excess - static_cast<double>(number_dim) / all) <= 1e-6 * dealt.excess);
         std::size_t wrong = 0;
@@ -101,7 +102,7 @@ TEST_CASE("counts beside many dim weights are in proportion to the weights", "[c
         const double c = (low + high) / 2;
         double sum = 0;
         for (const double weight : weights) sum += counts_of(c, weight);
-        (sum < lumis::total_counts<float> ? low : high) = c;
+        (sum < lumis::detail::total_counts<float> ? low : high) = c;
     }
     const auto starts = deal<float>(weights);
     double worst = 0;
@@ -149,15 +150,15 @@ TEST_CASE("counts are dealt in few rounds, and complete after any number of them
 TEMPLATE_TEST_CASE("points and the cells that hold them", "[cumulative_counts]", float, double) {
     using T = TestType;
     const T nan = std::numeric_limits<T>::quiet_NaN(), inf = std::numeric_limits<T>::infinity();
-    CHECK(lumis::index_of(T(0), 4) == 0);
-    CHECK(lumis::index_of(T(0.25), 4) == 1);
-    CHECK(lumis::index_of(T(0.999), 4) == 3);
-    CHECK(lumis::index_of(T(1), 4) == 3);
-    for (const T x : {T(-1), nan, -inf}) CHECK(lumis::index_of(x, 4) == 0);
-    for (const T x : {T(2), T(1e30), inf}) CHECK(lumis::index_of(x, 4) == 3);
+    CHECK(lumis::detail::index_of(T(0), 4) == 0);
+    CHECK(lumis::detail::index_of(T(0.25), 4) == 1);
+    CHECK(lumis::detail::index_of(T(0.999), 4) == 3);
+    CHECK(lumis::detail::index_of(T(1), 4) == 3);
+    for (const T x : {T(-1), nan, -inf}) CHECK(lumis::detail::index_of(x, 4) == 0);
+    for (const T x : {T(2), T(1e30), inf}) CHECK(lumis::detail::index_of(x, 4) == 3);
     for (const std::size_t n : {1u, 3u, 1000u, 1u << 24}) {
         for (const T position : {T(0), T(0.5), T(1)}) {
-            const T moved = lumis::clear_of_edges(position, n);
+            const T moved = lumis::detail::clear_of_edges(position, n);
             CHECK((moved > 0 && moved < 1));
         }
     }
@@ -170,14 +171,14 @@ TEST_CASE("of several bad weights the first is named, whatever row is looked at 
     const auto backwards = [](std::size_t n, auto f) {
         while (n > 0) f(--n);
     };
-    CHECK_THROWS_WITH(lumis::require_weights(std::span<const float>{weights}, 8, backwards),
+    CHECK_THROWS_WITH(lumis::detail::require_weights(std::span<const float>{weights}, 8, backwards),
                       Catch::Matchers::Contains("weight 13 is -3"));
 }
 
 TEST_CASE("refused weights are named", "[cumulative_counts]") {
     const auto message = [](std::vector<float> weights) {
         try {
-            lumis::require_weights(std::span<const float>{weights});
+            lumis::detail::require_weights(std::span<const float>{weights});
         } catch (const std::invalid_argument& error) {
             return std::string{error.what()};
         }

@@ -79,7 +79,7 @@ TEMPLATE_TEST_CASE("a piecewise constant density integrates to 1 and follows the
         }
         INFO(n << " weights");
         CHECK(std::abs(static_cast<double>(sum) - 1) <= 2 * double{std::numeric_limits<T>::epsilon()});
-        CHECK(worst <= static_cast<double>(2 + n) / double{lumis::total_counts<T>});
+        CHECK(worst <= static_cast<double>(2 + n) / double{lumis::detail::total_counts<T>});
         // Total: 0 outside, and for what is no number.
         for (const T x : {T(-0.25), T(1.25), std::numeric_limits<T>::infinity(), std::numeric_limits<T>::quiet_NaN()}) {
             CHECK(density.pdf(x) == 0);
@@ -106,7 +106,7 @@ TEMPLATE_TEST_CASE("a piecewise constant sample leads back to its uniform", "[pi
             const auto sample = density.sample(one(u));
             const double error = std::abs(double{density.invert(sample.value).x} - double{u});
             // By what the rounding of x, and its distance from the cell's edges, can move it; and half a count.
-            const double blur = 16 * epsilon * (double{sample.pdf} + 1) + 1 / double{lumis::total_counts<T>};
+            const double blur = 16 * epsilon * (double{sample.pdf} + 1) + 1 / double{lumis::detail::total_counts<T>};
             worst = std::fmax(worst, error / blur);
             if (!(error >= 0)) worst = 1e9;
         }
@@ -195,7 +195,8 @@ TEMPLATE_TEST_CASE("a piecewise constant grid in all its parts", "[piecewise_con
             worst_return = std::max({worst_return, std::abs(double{back.x} - double{u.x}) / (1 + double{sample.pdf}),
                                      std::abs(double{back.y} - double{u.y}) / (1 + double{sample.pdf})});
         }
-        CHECK(worst_return <= 32 * double{std::numeric_limits<T>::epsilon()} + 1 / double{lumis::total_counts<T>});
+        CHECK(worst_return <=
+              32 * double{std::numeric_limits<T>::epsilon()} + 1 / double{lumis::detail::total_counts<T>});
         for (const T x : {T(-0.5), T(1.5), std::numeric_limits<T>::quiet_NaN()}) {
             CHECK(grid.pdf({x, T(0.5)}) == 0);
             CHECK(grid.pdf({T(0.5), x}) == 0);

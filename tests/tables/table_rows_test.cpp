@@ -16,8 +16,8 @@
 
 namespace {
 
-using AllRows =
-    std::tuple<lumis::GuidedRows<float>, lumis::GuidedRows<double>, lumis::AliasRows<float>, lumis::AliasRows<double>>;
+using AllRows = std::tuple<lumis::detail::GuidedRows<float>, lumis::detail::GuidedRows<double>,
+                           lumis::detail::AliasRows<float>, lumis::detail::AliasRows<double>>;
 
 template <class Rows>
 struct ScalarOfRows;
@@ -64,7 +64,7 @@ TEMPLATE_LIST_TEST_CASE("a table's counts are complete, whole, and none of weigh
         }
         INFO(weights.size() << " weights");
         CHECK(wrong == 0);
-        CHECK(total == lumis::total_counts<T>);
+        CHECK(total == lumis::detail::total_counts<T>);
     }
 }
 
@@ -88,7 +88,7 @@ TEMPLATE_LIST_TEST_CASE("corner and random uniforms draw what they should", "[ta
 
 TEST_CASE("float: by all 2^24 uniforms the guide finds what a binary search finds", "[table_rows]") {
     for (const auto& weights : nasty_weights()) {
-        const auto table = table_of<lumis::GuidedRows<float>>(weights);
+        const auto table = table_of<lumis::detail::GuidedRows<float>>(weights);
         std::vector<std::uint32_t> ends(weights.size());
         std::uint32_t end = 0;
         for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = end += table.counts(0, i);
@@ -107,7 +107,7 @@ TEST_CASE("float: by all 2^24 uniforms the guide finds what a binary search find
 
 TEST_CASE("float: by all 2^24 uniforms an alias row draws each entry as often as it has counts", "[table_rows]") {
     for (const auto& weights : nasty_weights()) {
-        const auto table = table_of<lumis::AliasRows<float>>(weights);
+        const auto table = table_of<lumis::detail::AliasRows<float>>(weights);
         std::vector<std::uint32_t> drawn(weights.size());
         std::vector<double> positions(weights.size());
         for (std::uint32_t k = 0; k < 1u << 24; ++k) {
@@ -133,7 +133,7 @@ TEST_CASE("double: an alias row draws each entry as often as it has counts", "[t
     for (const auto& weights : nasty_weights()) {
         const std::uint64_t n = weights.size();
         if (n > 10'000) continue;
-        const auto table = table_of<lumis::AliasRows<double>>(weights);
+        const auto table = table_of<lumis::detail::AliasRows<double>>(weights);
         const auto at = [&](std::uint64_t count) { return table.draw(0, static_cast<double>(count) * 0x1p-31).index; };
         std::vector<std::uint64_t> drawn(n);
         for (std::uint64_t bin = 0; bin < n; ++bin) {
@@ -160,7 +160,7 @@ TEST_CASE("double: an alias row draws each entry as often as it has counts", "[t
 
 TEMPLATE_TEST_CASE("an entry and a position lead back to their uniform", "[table_rows]", float, double) {
     using T = TestType;
-    const auto table = table_of<lumis::GuidedRows<T>>({0, 2, 0, 0, 1, 1e-12, 5, 0});
+    const auto table = table_of<lumis::detail::GuidedRows<T>>({0, 2, 0, 0, 1, 1e-12, 5, 0});
     for (const double u : {0.0, 0.01, 0.2499, 0.3, 0.5, 0.77, 0.999999}) {
         const auto entry = table.draw(0, static_cast<T>(u));
         const double back = table.uniform_of(0, entry.index, entry.position);

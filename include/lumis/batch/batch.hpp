@@ -94,7 +94,7 @@ void sample_n(const S& strategy, std::type_identity_t<UniformSpans<T>> u, std::t
     LUMIS_ASSERT(out.x.size() == count && out.y.size() == count && out.z.size() == count);
     // Small strategies are copied: otherwise the compiler must assume that each store to `out` changes their members, and
     // loads them again.
-    Held<const S&> held = strategy;
+    detail::Held<const S&> held = strategy;
     if constexpr (detail::SamplesLanes<S, L>) {
         detail::for_each_chunk<L>(count, [&](auto load, auto store) {
             const auto drawn = held.sample(glm::vec<2, L>{load(u.x), load(u.y)});
@@ -119,7 +119,7 @@ template <Strategy S, class T = typename S::Scalar>
     requires std::same_as<typename S::Point, Direction<T>>
 void pdf_n(const S& strategy, std::type_identity_t<std::span<const T>> x, std::type_identity_t<std::span<const T>> y,
            std::type_identity_t<std::span<const T>> z, std::type_identity_t<std::span<T>> pdf) {
-    Held<const S&> held = strategy;
+    detail::Held<const S&> held = strategy;
     evaluate_n<T>([&held](const auto& w) -> decltype(held.pdf(w)) { return held.pdf(w); }, x, y, z, pdf);
 }
 

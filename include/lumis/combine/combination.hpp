@@ -156,13 +156,13 @@ class Combination {
     // them, whichever technique drew it and whatever the counts: the integrand is the same function for all.
     template <std::size_t I, bool only_point, class Drawn>
     [[nodiscard]] LUMIS_HD decltype(auto) seen(const Drawn& sample) const noexcept {
-        constexpr bool is_delta_light = is_delta<I> && DrawsDistance<Nth<I>>;
+        constexpr bool is_delta_light = is_delta<I> && detail::DrawsDistance<Nth<I>>;
         if constexpr (only_point || size == 1 || is_delta_light) {
             return (sample);
-        } else if constexpr (KnowNearest<S0, std::remove_cvref_t<Rest>...>) {
+        } else if constexpr (detail::KnowNearest<S0, std::remove_cvref_t<Rest>...>) {
             const Scalar own = detail::own_distance<Scalar>(sample);
             return detail::with_distance(sample, detail::nearest_along<I>(strategies_, sample.value, own));
-        } else if constexpr (DrawsDistance<Nth<I>>) {
+        } else if constexpr (detail::DrawsDistance<Nth<I>>) {
             return Sample<Point, Scalar>{sample.value, sample.pdf};
         } else {
             return (sample);

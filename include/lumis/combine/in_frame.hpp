@@ -61,12 +61,12 @@ class InFrame {
 template <class S>
     requires Strategy<std::remove_cvref_t<S>>
 [[nodiscard]] LUMIS_HD constexpr auto in_frame(const Frame<typename std::remove_cvref_t<S>::Scalar>& frame, S&& local) {
-    return InFrame<Held<S>>{frame, std::forward<S>(local)};
+    return InFrame<detail::Held<S>>{frame, std::forward<S>(local)};
 }
 template <class S>
-    requires Strategy<S> && HeldByReference<S&>
+    requires Strategy<S> && detail::HeldByReference<S&>
 [[nodiscard]] LUMIS_HD constexpr auto in_frame(const Frame<typename S::Scalar>& frame, S& local LUMIS_LIFETIME_BOUND) {
-    return InFrame<Held<S&>>{frame, local};
+    return InFrame<detail::Held<S&>>{frame, local};
 }
 
 }  // namespace lumis

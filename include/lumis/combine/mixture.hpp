@@ -23,7 +23,7 @@ template <class First, class... Rest>
     requires Composable<First, Rest...>
 class Mixture {
     using S0 = std::remove_cvref_t<First>;
-    static constexpr bool knows_nearest = KnowNearest<S0, std::remove_cvref_t<Rest>...>;
+    static constexpr bool knows_nearest = detail::KnowNearest<S0, std::remove_cvref_t<Rest>...>;
 
     static constexpr std::size_t size = 1 + sizeof...(Rest);
     static constexpr int part_dimensions =

@@ -53,12 +53,12 @@ struct Choose {
 template <std::integral Count, class S>
     requires Strategy<std::remove_cvref_t<S>>
 [[nodiscard]] LUMIS_HD constexpr auto take(Count count, S&& strategy) {
-    return Take<Held<S>>{detail::checked_count(count), std::forward<S>(strategy)};
+    return Take<detail::Held<S>>{detail::checked_count(count), std::forward<S>(strategy)};
 }
 template <std::integral Count, class S>
-    requires Strategy<S> && HeldByReference<S&>
+    requires Strategy<S> && detail::HeldByReference<S&>
 [[nodiscard]] LUMIS_HD constexpr auto take(Count count, S& strategy LUMIS_LIFETIME_BOUND) {
-    return Take<Held<S&>>{detail::checked_count(count), strategy};
+    return Take<detail::Held<S&>>{detail::checked_count(count), strategy};
 }
 template <std::integral Count, StrategyReference W>
 [[nodiscard]] LUMIS_HD constexpr auto take(Count count, W wrapper) {
@@ -71,13 +71,13 @@ template <class S>
     requires Strategy<std::remove_cvref_t<S>>
 [[nodiscard]] LUMIS_HD constexpr auto choose(std::convertible_to<double> auto probability, S&& strategy) {
     using Scalar = typename std::remove_cvref_t<S>::Scalar;
-    return Choose<Held<S>>{static_cast<Scalar>(probability), std::forward<S>(strategy)};
+    return Choose<detail::Held<S>>{static_cast<Scalar>(probability), std::forward<S>(strategy)};
 }
 template <class S>
-    requires Strategy<S> && HeldByReference<S&>
+    requires Strategy<S> && detail::HeldByReference<S&>
 [[nodiscard]] LUMIS_HD constexpr auto choose(std::convertible_to<double> auto probability,
                                              S& strategy LUMIS_LIFETIME_BOUND) {
-    return Choose<Held<S&>>{static_cast<typename S::Scalar>(probability), strategy};
+    return Choose<detail::Held<S&>>{static_cast<typename S::Scalar>(probability), strategy};
 }
 template <StrategyReference W>
 [[nodiscard]] LUMIS_HD constexpr auto choose(std::convertible_to<double> auto probability, W wrapper) {

@@ -34,11 +34,11 @@ class AreaLight {
 namespace detail {
 
 template <class Shape>
-struct ViewOf : std::type_identity<FlatView<Shape>> {};
+struct ViewOf : std::type_identity<detail::FlatView<Shape>> {};
 template <std::floating_point T>
-struct ViewOf<Disk<T>> : std::type_identity<DiskView<T>> {};
+struct ViewOf<Disk<T>> : std::type_identity<detail::DiskView<T>> {};
 template <std::floating_point T>
-struct ViewOf<Sphere<T>> : std::type_identity<SphereView<T>> {};
+struct ViewOf<Sphere<T>> : std::type_identity<detail::SphereView<T>> {};
 
 }  // namespace detail
 
@@ -56,7 +56,7 @@ class AreaLight<Shape, ByArea> {
 
     template <RealOf<Scalar> R = Scalar>
     [[nodiscard]] LUMIS_INLINE LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
-        const SurfaceSample<R> point = view_.sample(u);
+        const detail::SurfaceSample<R> point = view_.sample(u);
         const R squared = glm::dot(point.position, point.position);
         const auto valid = is_squared_length(squared);
         const R distance = real::select(valid, real::sqrt(squared), 0);
@@ -67,14 +67,14 @@ class AreaLight<Shape, ByArea> {
 
     template <RealOf<Scalar> R = Scalar>
     [[nodiscard]] LUMIS_HD R pdf(const Direction<R>& w) const noexcept {
-        const SurfaceHit<R> hit = view_.intersect(w);
+        const detail::SurfaceHit<R> hit = view_.intersect(w);
         return density(hit.distance, hit.cos_light);
     }
 
     // From the reference point to the light; infinity where w misses it.
     template <RealOf<Scalar> R = Scalar>
     [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept {
-        return distance_or_infinity(view_.intersect(w));
+        return detail::distance_or_infinity(view_.intersect(w));
     }
 
     // Not for spheres, on which two points can lie in one direction.

@@ -64,7 +64,7 @@ class AreaLight<Sphere<T>, BySolidAngle> {
     // From the reference point to the light; infinity where w misses it.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept {
-        return distance_or_infinity(view_.intersect(w));
+        return detail::distance_or_infinity(view_.intersect(w));
     }
 
     [[nodiscard]] LUMIS_HD T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
@@ -72,7 +72,7 @@ class AreaLight<Sphere<T>, BySolidAngle> {
     [[nodiscard]] LUMIS_HD T solid_angle() const noexcept { return view_.solid_angle(); }
 
   private:
-    SphereView<T> view_;
+    detail::SphereView<T> view_;
     T pdf_;
 };
 
@@ -86,7 +86,7 @@ class AreaLight<Triangle<T>, BySolidAngle> {
     static constexpr int dimensions = 2;
 
     LUMIS_INLINE AreaLight(const Triangle<T>& triangle, const glm::vec<3, T>& reference_point) noexcept
-        : AreaLight{FlatShape<Triangle<T>>{triangle, reference_point}} {}
+        : AreaLight{detail::FlatShape<Triangle<T>>{triangle, reference_point}} {}
 
     // u.x cuts off a share of the solid angle by an arc from a to the edge bc; u.y goes along that arc.
     template <RealOf<T> R = T>
@@ -106,7 +106,7 @@ class AreaLight<Triangle<T>, BySolidAngle> {
     // From the reference point to the light; infinity where w misses it.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept {
-        return distance_or_infinity(view_.intersect(w));
+        return detail::distance_or_infinity(view_.intersect(w));
     }
 
     [[nodiscard]] LUMIS_HD T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
@@ -114,14 +114,14 @@ class AreaLight<Triangle<T>, BySolidAngle> {
     [[nodiscard]] LUMIS_HD T solid_angle() const noexcept { return seen_.solid_angle(); }
 
   private:
-    LUMIS_INLINE explicit AreaLight(const FlatShape<Triangle<T>>& shape) noexcept
+    LUMIS_INLINE explicit AreaLight(const detail::FlatShape<Triangle<T>>& shape) noexcept
         : view_{shape},
           seen_{shape.in_units.corner, shape.in_units.corner + shape.in_units.edge_u,
                 shape.in_units.corner + shape.in_units.edge_v, shape.in_units.edge_u, shape.in_units.edge_v},
           pdf_{detail::uniform_density(seen_.solid_angle())} {}
 
-    FlatView<Triangle<T>> view_;
-    SphericalTriangle<T> seen_;
+    detail::FlatView<Triangle<T>> view_;
+    detail::SphericalTriangle<T> seen_;
     T pdf_;
 };
 
@@ -139,7 +139,7 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     static constexpr int dimensions = 2;
 
     LUMIS_INLINE AreaLight(const Parallelogram<T>& shape, const glm::vec<3, T>& reference_point) noexcept
-        : AreaLight{FlatShape<Parallelogram<T>>{shape, reference_point}} {}
+        : AreaLight{detail::FlatShape<Parallelogram<T>>{shape, reference_point}} {}
 
     // u.x goes along the first edge and u.y along the second or, where the shape is split, u.x from the first edge by way
     // of the diagonal to the second, and u.y away from the corner.
@@ -167,7 +167,7 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     // From the reference point to the light; infinity where w misses it.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept {
-        return distance_or_infinity(view_.intersect(w));
+        return detail::distance_or_infinity(view_.intersect(w));
     }
 
     [[nodiscard]] LUMIS_HD T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
@@ -175,7 +175,7 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     [[nodiscard]] LUMIS_HD T solid_angle() const noexcept { return solid_angle_; }
 
   private:
-    using Shape = FlatShape<Parallelogram<T>>;
+    using Shape = detail::FlatShape<Parallelogram<T>>;
     using Vector = typename Shape::Vector;
 
     LUMIS_INLINE explicit AreaLight(const Shape& shape) noexcept
@@ -242,13 +242,13 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
             share_ = real::quotient_where(first > 0 && second > 0, first, first + second);
         }
 
-        SphericalTriangle<T> first_, second_;
+        detail::SphericalTriangle<T> first_, second_;
         glm::vec<3, T> to_first_;  // normal to the plane through the diagonal
         T share_{0};               // of the first in the solid angle
     };
 
-    FlatView<Parallelogram<T>> view_;
-    SphericalRectangle<T> rectangle_;
+    detail::FlatView<Parallelogram<T>> view_;
+    detail::SphericalRectangle<T> rectangle_;
     std::optional<Halves> halves_;  // where the shape is split
     T solid_angle_, pdf_, unit_;
 };

@@ -57,13 +57,13 @@ class BasicEnvironmentMap {
 
     // luminance: width x height values, row by row from +y. Throws std::invalid_argument for a size of 0, a size that
     // does not match, and a texel that is NaN, infinite or negative. All-zero luminance is legal, see empty().
-    // for_each_row: the host's own way to run the rows, on threads perhaps, see InOrder.
+    // for_each_row: the host's own way to run the rows, on threads perhaps, see detail::InOrder.
     // Keeps 6 bytes a texel with GuidedRows, 8 with AliasRows, and 28 more a row.
-    template <class ForEachRow = InOrder>
+    template <class ForEachRow = detail::InOrder>
     LUMIS_HD BasicEnvironmentMap(std::integral auto width, std::integral auto height, std::span<const T> luminance,
                                  EnvironmentOptions options = {}, const ForEachRow& for_each_row = {})
         : grid_{width, height, luminance.size()} {
-        require_weights(luminance, this->width(), for_each_row);
+        detail::require_weights(luminance, this->width(), for_each_row);
         const auto weights_of = [&](std::size_t y, std::span<double> weights) {
             mean_luminance(luminance, y, options.interpolation, weights);
         };
@@ -151,7 +151,7 @@ class BasicEnvironmentMap {
     }
 
     [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& w) const noexcept requires
-        requires(const CountGrid<T, Rows>& grid) {
+        requires(const detail::CountGrid<T, Rows>& grid) {
         grid.invert({});
     }
     {
@@ -184,10 +184,10 @@ class BasicEnvironmentMap {
         const std::size_t rows_to_pole = from_top ? y : height() - 1 - y;
         const double sine =
             std::sin(std::numbers::pi / 2 * static_cast<double>(rows_to_pole) / static_cast<double>(height()));
-        const double probability = empty() ? 0.0 : grid_.row_counts(y) / double{total_counts<T>};
+        const double probability = empty() ? 0.0 : grid_.row_counts(y) / double{detail::total_counts<T>};
         const double texel_solid_angle = 2 * std::numbers::pi / static_cast<double>(width()) * row_extent(y);
         return {static_cast<T>(2 * sine * sine), static_cast<T>(row_extent(y)), from_top ? T(0) : T(1),
-                static_cast<T>(probability / (double{total_counts<T>} * texel_solid_angle))};
+                static_cast<T>(probability / (double{detail::total_counts<T>} * texel_solid_angle))};
     }
 
     // What MIS compensation takes off every texel: the mean over the sphere; nothing where no texel stands out of it.
@@ -225,29 +225,29 @@ class BasicEnvironmentMap {
         }
     }
 
-    CountGrid<T, Rows> grid_;
+    detail::CountGrid<T, Rows> grid_;
     std::vector<Row> rows_;
     T turn_of_texel_ = 1 / static_cast<T>(width());
 };
 
 // Monotone in u.x, so that stratified uniforms stay stratified, and invertible: the one to take unless measured otherwise.
 template <std::floating_point T = float>
-class EnvironmentMap : public BasicEnvironmentMap<T, GuidedRows> {
+class EnvironmentMap : public BasicEnvironmentMap<T, detail::GuidedRows> {
   public:
-    using BasicEnvironmentMap<T, GuidedRows>::BasicEnvironmentMap;
+    using BasicEnvironmentMap<T, detail::GuidedRows>::BasicEnvironmentMap;
 };
 
 // Draws and evaluates a little faster in large maps, but scatters neighbouring u.x over the row and has no inverse.
 template <std::floating_point T = float>
-class AliasEnvironmentMap : public BasicEnvironmentMap<T, AliasRows> {
+class AliasEnvironmentMap : public BasicEnvironmentMap<T, detail::AliasRows> {
   public:
-    using BasicEnvironmentMap<T, AliasRows>::BasicEnvironmentMap;
+    using BasicEnvironmentMap<T, detail::AliasRows>::BasicEnvironmentMap;
 };
 
-template <std::integral W, std::integral H, Spannable R, class ForEachRow = InOrder>
-EnvironmentMap(W, H, const R&, EnvironmentOptions = {}, const ForEachRow& = {}) -> EnvironmentMap<ElementOf<R>>;
-template <std::integral W, std::integral H, Spannable R, class ForEachRow = InOrder>
+template <std::integral W, std::integral H, detail::Spannable R, class ForEachRow = detail::InOrder>
+EnvironmentMap(W, H, const R&, EnvironmentOptions = {}, const ForEachRow& = {}) -> EnvironmentMap<detail::ElementOf<R>>;
+template <std::integral W, std::integral H, detail::Spannable R, class ForEachRow = detail::InOrder>
 AliasEnvironmentMap(W, H, const R&, EnvironmentOptions = {}, const ForEachRow& = {})
-    -> AliasEnvironmentMap<ElementOf<R>>;
+    -> AliasEnvironmentMap<detail::ElementOf<R>>;
 
 }  // namespace lumis

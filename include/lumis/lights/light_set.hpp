@@ -51,8 +51,8 @@ class LightSet {
 
     // A light's own kind of sample; its distance is that to the nearest light of the set, which only lights know that are a
     // LightStrategy.
-    using SampleType =
-        std::conditional_t<DrawsDistance<Light> && !LightStrategy<Light>, Sample<Point, Scalar>, LightSampleType>;
+    using SampleType = std::conditional_t<detail::DrawsDistance<Light> && !LightStrategy<Light>, Sample<Point, Scalar>,
+                                          LightSampleType>;
 
     static_assert(std::same_as<typename std::remove_cvref_t<Table>::Scalar, Scalar>,
                   "the weights of a light set have its scalar type");
@@ -77,14 +77,14 @@ class LightSet {
     // The first uniform selects the light, with a FineAliasTable the first two. Density and distance are those of the whole
     // set, and ask every light for its own: a light may stand before the one selected, and is then the one that is seen.
     [[nodiscard]] LUMIS_HD SampleType sample(glm::vec<dimensions, Scalar> u) const noexcept {
-        if constexpr (DrawsDistance<Light> && !LightStrategy<Light>) {
+        if constexpr (detail::DrawsDistance<Light> && !LightStrategy<Light>) {
             return sample_point(u);
         } else {
             const Selected drawn = sample_one(u);
             SampleType sample = drawn.sample;
             if (!(sample.pdf > 0)) return sample;
             sample.pdf = density(sample.value, [&](std::size_t i, const Light& light) {
-                if constexpr (DrawsDistance<Light>) {
+                if constexpr (detail::DrawsDistance<Light>) {
                     if (i != drawn.index)
                         sample.distance = real::lesser(sample.distance, light.distance_along(sample.value));
                 }
@@ -177,9 +177,9 @@ class LightSet {
 };
 
 // Weights become a table; a table is used as it is.
-template <class Lights, Spannable Weights>
-LightSet(Lights&&, Weights&&) -> LightSet<Held<Lights>, AliasTable<ElementOf<Weights>>>;
+template <class Lights, detail::Spannable Weights>
+LightSet(Lights&&, Weights&&) -> LightSet<detail::Held<Lights>, AliasTable<detail::ElementOf<Weights>>>;
 template <class Lights, class Table>
-LightSet(Lights&&, Table&&) -> LightSet<Held<Lights>, Held<Table>>;
+LightSet(Lights&&, Table&&) -> LightSet<detail::Held<Lights>, detail::Held<Table>>;
 
 }  // namespace lumis

@@ -13,7 +13,7 @@
 namespace lumis {
 
 // Mean of (estimate - reference)^2.
-template <Spannable Values>
+template <detail::Spannable Values>
 [[nodiscard]] LUMIS_HD double mean_squared_error(const Values& estimate, const Values& reference) noexcept {
     const std::span e{estimate}, r{reference};
     LUMIS_ASSERT(e.size() == r.size());
@@ -25,7 +25,7 @@ template <Spannable Values>
     return sum / static_cast<double>(e.size());
 }
 
-template <Spannable Values>
+template <detail::Spannable Values>
 [[nodiscard]] LUMIS_HD double root_mean_squared_error(const Values& estimate, const Values& reference) noexcept {
     return std::sqrt(mean_squared_error(estimate, reference));
 }
@@ -33,7 +33,7 @@ template <Spannable Values>
 // Mean of ((estimate - reference) / max(|reference|, floor))^2: errors as fractions of the reference, so that a dark
 // region counts as much as a bright one. The floor, in the unit of the values, says from where on dark is black; with a
 // floor of 0, a reference of 0 has no relative error.
-template <Spannable Values>
+template <detail::Spannable Values>
 [[nodiscard]] LUMIS_HD double relative_mean_squared_error(const Values& estimate, const Values& reference,
                                                           double floor) noexcept {
     const std::span e{estimate}, r{reference};

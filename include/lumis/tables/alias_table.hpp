@@ -29,11 +29,11 @@ class AliasTable {
     // float, 2^31 in double) are too few: for more weights than counts, and if those that are less than a count's worth
     // would take more than a quarter of the draws beyond their share (see require_enough_counts, and FineAliasTable).
     // All-zero weights are legal, see empty(). Keeps 8 bytes a weight.
-    LUMIS_HD explicit AliasTable(std::span<const T> weights) : table_{checked_size<T>(weights.size()), 1} {
-        require_weights(weights);
-        const Dealt dealt = table_.deal(0, std::vector<double>(weights.begin(), weights.end()));
-        require_enough_counts<T>(dealt);
-        probability_of_count_ = dealt.value > 0 ? 1 / static_cast<T>(total_counts<T>) : T(0);
+    LUMIS_HD explicit AliasTable(std::span<const T> weights) : table_{detail::checked_size<T>(weights.size()), 1} {
+        detail::require_weights(weights);
+        const detail::Dealt dealt = table_.deal(0, std::vector<double>(weights.begin(), weights.end()));
+        detail::require_enough_counts<T>(dealt);
+        probability_of_count_ = dealt.value > 0 ? 1 / static_cast<T>(detail::total_counts<T>) : T(0);
     }
 
     [[nodiscard]] LUMIS_HD std::size_t size() const noexcept { return table_.entries(); }
@@ -52,12 +52,12 @@ class AliasTable {
     }
 
   private:
-    AliasRows<T> table_;
+    detail::AliasRows<T> table_;
     T probability_of_count_;  // 0 if nothing is drawn
 };
 
-template <Spannable R>
-AliasTable(const R&) -> AliasTable<ElementOf<R>>;
+template <detail::Spannable R>
+AliasTable(const R&) -> AliasTable<detail::ElementOf<R>>;
 
 // An AliasTable<float> with the 2^31 counts of one in double, for weights that 2^24 do not tell apart: more than four million
 // lights of very unequal powers, say. It spends two uniforms: the second refines the first. Probabilities are those drawn,

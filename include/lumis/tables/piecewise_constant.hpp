@@ -29,11 +29,12 @@ class PiecewiseConstant1D {
     // Throws std::invalid_argument for no weights, for one that is NaN, infinite or negative, and for more than there are
     // counts (2^24 in float), or too many dim ones (see require_enough_counts). All-zero weights are legal, see empty().
     // Keeps 6 bytes a weight.
-    LUMIS_HD explicit PiecewiseConstant1D(std::span<const T> weights) : table_{checked_size<T>(weights.size()), 1} {
-        require_weights(weights);
-        const Dealt dealt = table_.deal(0, std::vector<double>(weights.begin(), weights.end()));
-        require_enough_counts<T>(dealt);
-        density_of_count_ = dealt.value > 0 ? static_cast<T>(size()) / static_cast<T>(total_counts<T>) : T(0);
+    LUMIS_HD explicit PiecewiseConstant1D(std::span<const T> weights)
+        : table_{detail::checked_size<T>(weights.size()), 1} {
+        detail::require_weights(weights);
+        const detail::Dealt dealt = table_.deal(0, std::vector<double>(weights.begin(), weights.end()));
+        detail::require_enough_counts<T>(dealt);
+        density_of_count_ = dealt.value > 0 ? static_cast<T>(size()) / static_cast<T>(detail::total_counts<T>) : T(0);
     }
 
     [[nodiscard]] LUMIS_HD std::size_t size() const noexcept { return table_.entries(); }
@@ -44,17 +45,17 @@ class PiecewiseConstant1D {
     // A cell of weight 0 is never drawn.
     [[nodiscard]] LUMIS_HD Sample<Point, T> sample(glm::vec<1, T> u) const noexcept {
         const auto drawn = table_.draw(0, u.x);
-        const T x =
-            real::divide(static_cast<T>(drawn.index) + clear_of_edges(drawn.position, size()), static_cast<T>(size()));
+        const T x = real::divide(static_cast<T>(drawn.index) + detail::clear_of_edges(drawn.position, size()),
+                                 static_cast<T>(size()));
         return {x, density(drawn.counts)};
     }
 
     [[nodiscard]] LUMIS_HD T pdf(Point x) const noexcept {
-        return x >= 0 && x <= 1 ? density(table_.counts(0, index_of(x, size()))) : T(0);
+        return x >= 0 && x <= 1 ? density(table_.counts(0, detail::index_of(x, size()))) : T(0);
     }
 
     [[nodiscard]] LUMIS_HD glm::vec<1, T> invert(Point x) const noexcept {
-        const std::size_t index = index_of(x, size());
+        const std::size_t index = detail::index_of(x, size());
         return glm::vec<1, T>{table_.uniform_of(0, index, x * static_cast<T>(size()) - static_cast<T>(index))};
     }
 
@@ -63,7 +64,7 @@ class PiecewiseConstant1D {
         return static_cast<T>(counts) * density_of_count_;
     }
 
-    GuidedRows<T> table_;
+    detail::GuidedRows<T> table_;
     T density_of_count_;  // 0 if nothing is drawn
 };
 
@@ -76,12 +77,12 @@ class PiecewiseConstant2D {
     static constexpr int dimensions = 2;
 
     // weights: width x height values, row by row. Throws as PiecewiseConstant1D does, and for a size that does not match.
-    // for_each_row: see InOrder. Keeps 6 bytes a weight, and 12 more a row.
-    template <class ForEachRow = InOrder>
+    // for_each_row: see detail::InOrder. Keeps 6 bytes a weight, and 12 more a row.
+    template <class ForEachRow = detail::InOrder>
     LUMIS_HD PiecewiseConstant2D(std::integral auto width, std::integral auto height, std::span<const T> weights,
                                  const ForEachRow& for_each_row = {})
         : grid_{width, height, weights.size()} {
-        require_weights(weights, this->width(), for_each_row);
+        detail::require_weights(weights, this->width(), for_each_row);
         const auto weights_of = [&](std::size_t y, std::span<double> row) {
             for (std::size_t x = 0; x < row.size(); ++x) row[x] = weights[y * row.size() + x];
         };
@@ -116,17 +117,17 @@ class PiecewiseConstant2D {
 
   private:
     [[nodiscard]] LUMIS_HD T density(std::size_t row, std::uint32_t counts) const noexcept {
-        constexpr T all = static_cast<T>(total_counts<T>);
+        constexpr T all = static_cast<T>(detail::total_counts<T>);
         return (static_cast<T>(grid_.row_counts(row)) / all * static_cast<T>(height())) *
                (static_cast<T>(counts) / all * static_cast<T>(width()));
     }
 
-    CountGrid<T> grid_;
+    detail::CountGrid<T> grid_;
 };
 
-template <Spannable R>
-PiecewiseConstant1D(const R&) -> PiecewiseConstant1D<ElementOf<R>>;
-template <std::integral W, std::integral H, Spannable R, class ForEachRow = InOrder>
-PiecewiseConstant2D(W, H, const R&, const ForEachRow& = {}) -> PiecewiseConstant2D<ElementOf<R>>;
+template <detail::Spannable R>
+PiecewiseConstant1D(const R&) -> PiecewiseConstant1D<detail::ElementOf<R>>;
+template <std::integral W, std::integral H, detail::Spannable R, class ForEachRow = detail::InOrder>
+PiecewiseConstant2D(W, H, const R&, const ForEachRow& = {}) -> PiecewiseConstant2D<detail::ElementOf<R>>;
 
 }  // namespace lumis

@@ -5,7 +5,7 @@
 
 #include <type_traits>
 
-namespace lumis {
+namespace lumis::detail {
 
 template <class S>
 concept HeldByReference = std::is_lvalue_reference_v<S> && !std::is_trivially_destructible_v<std::remove_cvref_t<S>>;
@@ -13,4 +13,4 @@ concept HeldByReference = std::is_lvalue_reference_v<S> && !std::is_trivially_de
 template <class S>
 using Held = std::conditional_t<HeldByReference<S>, const std::remove_cvref_t<S>&, std::remove_cvref_t<S>>;
 
-}  // namespace lumis
+}  // namespace lumis::detail

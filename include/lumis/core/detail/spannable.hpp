@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-namespace lumis {
+namespace lumis::detail {
 
 template <class R>
 concept Spannable = requires(const R& range) {
@@ -15,4 +15,4 @@ concept Spannable = requires(const R& range) {
 template <Spannable R>
 using ElementOf = typename decltype(std::span{std::declval<const R&>()})::value_type;
 
-}  // namespace lumis
+}  // namespace lumis::detail

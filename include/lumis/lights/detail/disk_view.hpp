@@ -14,14 +14,14 @@
 #include <limits>
 #include <numbers>
 
-namespace lumis {
+namespace lumis::detail {
 
 template <std::floating_point T>
 class DiskView {
   public:
     LUMIS_HD DiskView(const Disk<T>& disk, const glm::vec<3, T>& reference_point) noexcept
         : center_{real::rounded(disk.center - reference_point)} {
-        LUMIS_ASSERT(!detail::is_nan(disk) && !detail::is_nan(reference_point));
+        LUMIS_ASSERT(!is_nan(disk) && !is_nan(reference_point));
         const T squared = glm::dot(disk.normal, disk.normal);
         if (is_squared_length(squared)) {
             frame_ = Frame<T>{real::divide(disk.normal, real::sqrt(squared))};
@@ -69,4 +69,4 @@ class DiskView {
     T height_{0};  // of the plane over the reference point, along the normal; signed
 };
 
-}  // namespace lumis
+}  // namespace lumis::detail

@@ -16,9 +16,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace lumis {
-
-namespace detail {
+namespace lumis::detail {
 
 // What a shape is prepared in. A float shape that passes close by needs double: where the reference point is 1e-6 of an edge
 // away from the plane, a height formed of float products is wrong by a tenth. float coordinates differ exactly in double.
@@ -44,8 +42,6 @@ template <std::floating_point T>
     return real::rounded(glm::cross(a, b));
 }
 
-}  // namespace detail
-
 // Vertices are taken relative to the reference point before anything else, and edges before that, so that a scene far from
 // its origin loses no more than its coordinates have lost already.
 template <class Shape>
@@ -66,13 +62,13 @@ struct FlatShape {
 
     LUMIS_INLINE FlatShape(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept requires is_triangle
         : FlatShape{difference(shape.a, reference_point), difference(shape.b, shape.a), difference(shape.c, shape.a)} {
-        LUMIS_ASSERT(!detail::is_nan(shape) && !detail::is_nan(reference_point));
+        LUMIS_ASSERT(!is_nan(shape) && !is_nan(reference_point));
     }
 
     LUMIS_INLINE FlatShape(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept
         requires(!is_triangle)
         : FlatShape{difference(shape.corner, reference_point), Vector(shape.edge_u), Vector(shape.edge_v)} {
-        LUMIS_ASSERT(!detail::is_nan(shape) && !detail::is_nan(reference_point));
+        LUMIS_ASSERT(!is_nan(shape) && !is_nan(reference_point));
     }
 
   private:
@@ -80,9 +76,9 @@ struct FlatShape {
         : in_scene{corner, u, v}, in_units{in_scene} {
         if constexpr (std::same_as<Wide, Scalar>) {
             // Not so small that the square of the corner would leave its range: then the shape subtends nothing.
-            const Wide least = detail::longest_component(corner) * Wide(0x1p-500);
-            const Wide longest = real::greater(detail::longest_component(u), detail::longest_component(v));
-            unit = detail::power_of_two(real::greater(longest, least));
+            const Wide least = longest_component(corner) * Wide(0x1p-500);
+            const Wide longest = real::greater(longest_component(u), longest_component(v));
+            unit = power_of_two(real::greater(longest, least));
             const Wide inverse = 1 / unit;
             in_units = {corner * inverse, u * inverse, v * inverse};
         }
@@ -93,4 +89,4 @@ struct FlatShape {
     }
 };
 
-}  // namespace lumis
+}  // namespace lumis::detail

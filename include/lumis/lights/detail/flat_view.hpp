@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace lumis {
+namespace lumis::detail {
 
 template <class Shape>
 class FlatView {
@@ -27,16 +27,16 @@ class FlatView {
         using Wide = typename FlatShape<Shape>::Wide;
         constexpr T rounding = 4 * std::numeric_limits<T>::epsilon();
         const auto& [start, u, v] = shape.in_units;
-        const auto normal = detail::cross(u, v);
+        const auto normal = cross(u, v);
         const Wide area = real::length(normal);  // of the parallelogram of the edges
         const Wide inverse = real::quotient_where(area > 0, Wide(1), area);
         normal_ = normal * inverse;
         height_ = static_cast<T>(glm::dot(start, normal) * inverse * shape.unit);
         area_ = static_cast<T>(area * shape.unit * shape.unit * (is_triangle ? Wide(0.5) : Wide(1)));
-        across_u_ = detail::cross(v, start) * inverse;
-        across_v_ = detail::cross(start, u) * inverse;
-        rounding_u_ = rounding * detail::longest_component(across_u_);
-        rounding_v_ = rounding * detail::longest_component(across_v_);
+        across_u_ = cross(v, start) * inverse;
+        across_v_ = cross(start, u) * inverse;
+        rounding_u_ = rounding * longest_component(across_u_);
+        rounding_v_ = rounding * longest_component(across_v_);
     }
 
     [[nodiscard]] LUMIS_HD T area() const noexcept { return area_; }
@@ -96,4 +96,4 @@ class FlatView {
     T rounding_u_, rounding_v_;  // by how much those products move when w is rounded
 };
 
-}  // namespace lumis
+}  // namespace lumis::detail

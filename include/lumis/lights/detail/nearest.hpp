@@ -14,7 +14,7 @@
 #include <tuple>
 #include <type_traits>
 
-namespace lumis {
+namespace lumis::detail {
 
 template <class S>
 concept DrawsDistance = requires(const S strategy, UniformsOf<S> u) {
@@ -25,8 +25,6 @@ concept DrawsDistance = requires(const S strategy, UniformsOf<S> u) {
 // tells it along any direction. A delta light hides nothing: its samples keep the distance that they come with.
 template <class... S>
 concept KnowNearest = (LightStrategy<S> || ...) && ((LightStrategy<S> || DeltaStrategy<S> || !DrawsDistance<S>)&&...);
-
-namespace detail {
 
 // Draws a point and its density alone, too: sample looks for the nearest light as well.
 template <class S>
@@ -77,6 +75,4 @@ template <std::floating_point T>
     }
 }
 
-}  // namespace detail
-
-}  // namespace lumis
+}  // namespace lumis::detail

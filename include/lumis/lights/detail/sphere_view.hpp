@@ -15,7 +15,7 @@
 #include <limits>
 #include <numbers>
 
-namespace lumis {
+namespace lumis::detail {
 
 template <std::floating_point T>
 class SphereView {
@@ -26,7 +26,7 @@ class SphereView {
         : center_{real::rounded(sphere.center - reference_point)},
           radius_{sphere.radius},
           axis_{Direction<T>{0, 0, 1}} {
-        LUMIS_ASSERT(!detail::is_nan(sphere) && !detail::is_nan(reference_point));
+        LUMIS_ASSERT(!is_nan(sphere) && !is_nan(reference_point));
         // In double: just above the surface the rounding of a float distance is as large as the height.
         const glm::dvec3 center{center_};
         const double squared = glm::dot(center, center), r = radius_;
@@ -123,4 +123,4 @@ class SphereView {
     T chord_;        // longest |w - axis| of a direction w that points at the sphere
 };
 
-}  // namespace lumis
+}  // namespace lumis::detail

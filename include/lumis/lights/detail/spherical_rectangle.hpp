@@ -20,7 +20,7 @@
 #include <limits>
 #include <numbers>
 
-namespace lumis {
+namespace lumis::detail {
 
 template <std::floating_point T>
 class SphericalRectangle {
@@ -41,7 +41,7 @@ class SphericalRectangle {
         y_ = y;
         z_ = above > 0 ? -up : up;
         const Wide x0 = glm::dot(corner, x), y0 = glm::dot(corner, y), x1 = x0 + width, y1 = y0 + height;
-        unit_ = detail::power_of_two(static_cast<T>(real::greater(width, height)));
+        unit_ = power_of_two(static_cast<T>(real::greater(width, height)));
         near_ = Vector{x0, y0, z} * (1 / Wide{unit_});
         far_ = glm::vec<2, Wide>{x1, y1} * (1 / Wide{unit_});
         const Wide zz = z * z, xx0 = x0 * x0 + zz, xx1 = x1 * x1 + zz, yy0 = y0 * y0 + zz, yy1 = y1 * y1 + zz;
@@ -169,4 +169,4 @@ class SphericalRectangle {
     bool has_digits_{false};
 };
 
-}  // namespace lumis
+}  // namespace lumis::detail

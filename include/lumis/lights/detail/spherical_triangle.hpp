@@ -34,7 +34,7 @@
 #include <limits>
 #include <numbers>
 
-namespace lumis {
+namespace lumis::detail {
 
 template <std::floating_point T>
 class SphericalTriangle {
@@ -46,7 +46,7 @@ class SphericalTriangle {
     // than their differences. Their squares have to be in range. 0 sr without area, edge-on and from a vertex.
     LUMIS_INLINE SphericalTriangle(const Vector& a, const Vector& b, const Vector& c, const Vector& ab,
                                    const Vector& ac) noexcept {
-        const Vector cross_ab = detail::cross(a, ab), cross_bc = detail::cross(b, ac - ab);
+        const Vector cross_ab = cross(a, ab), cross_bc = cross(b, ac - ab);
         const Wide volume = glm::dot(cross_ab, ac), aa = glm::dot(a, a), bb = glm::dot(b, b), cc = glm::dot(c, c);
         if (!(std::abs(volume) > 0 && in_range(aa) && in_range(bb) && in_range(cc))) return;
         const Wide inverse_a = inverse(real::sqrt(aa)), inverse_b = inverse(real::sqrt(bb)),
@@ -63,7 +63,7 @@ class SphericalTriangle {
         Wide sum = ab_side.one_plus_cos * bc_side.one_plus_cos - dot_of_crosses;
         const Wide inverse_ca = inverse_c * inverse_a, cos_ca = glm::dot(c, a) * inverse_ca;
         if (cos_ca < Wide(-0.75)) {
-            const Vector c_x_a = detail::cross(ac, a) * inverse_ca;
+            const Vector c_x_a = cross(ac, a) * inverse_ca;
             const Side ca_side{cos_ca, c_x_a};
             sum = ab_side.one_plus_cos > bc_side.one_plus_cos
                       ? bc_side.one_plus_cos * ca_side.one_plus_cos - glm::dot(b_x_c, c_x_a)
@@ -187,4 +187,4 @@ class SphericalTriangle {
     glm::vec<2, T> end_{1, 0};        // (cos, sin) of E / 2 at c
 };
 
-}  // namespace lumis
+}  // namespace lumis::detail

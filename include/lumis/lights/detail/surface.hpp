@@ -8,7 +8,7 @@
 #include <concepts>
 #include <limits>
 
-namespace lumis {
+namespace lumis::detail {
 
 // A point relative to the reference point, and the cosine at the light times its distance; 0: edge-on, or hidden.
 template <Real R>
@@ -37,4 +37,4 @@ template <Real R>
     return real::select(hit.distance > 0, hit.distance, std::numeric_limits<scalar_of<R>>::infinity());
 }
 
-}  // namespace lumis
+}  // namespace lumis::detail

@@ -24,7 +24,7 @@
 #include <span>
 #include <vector>
 
-namespace lumis {
+namespace lumis::detail {
 
 template <class T>
 class AliasRows {
@@ -144,4 +144,4 @@ class AliasRows {
     std::vector<Bin> bins_;
 };
 
-}  // namespace lumis
+}  // namespace lumis::detail

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace lumis {
+namespace lumis::detail {
 
 template <std::floating_point T, template <class> class Rows = GuidedRows>
 class CountGrid {
@@ -142,4 +142,4 @@ class CountGrid {
     Rows<T> cells_;       // a table of each row's cells
 };
 
-}  // namespace lumis
+}  // namespace lumis::detail

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace lumis {
+namespace lumis::detail {
 
 template <class T>
 class GuidedRows {
@@ -104,4 +104,4 @@ class GuidedRows {
     std::vector<Guide> guide_;   // the group of entries in which each run begins, and the last one drawn
 };
 
-}  // namespace lumis
+}  // namespace lumis::detail
