@@ -1,6 +1,6 @@
 #include "catch.hpp"
-#include <lumis/batch/lanes.hpp>
 #include <lumis/core/elementary.hpp>
+#include <lumis/core/lanes.hpp>
 #include <lumis/core/sample.hpp>
 
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 // The arithmetic that kernels are written in raises no floating-point exception where its condition fails, and barriers
 // change no value. Its use by the kernels is tested by floating_point_exceptions_test and by the stability table.
 #include "exceptions.hpp"
-#include <lumis/batch/lanes.hpp>
+#include <lumis/core/lanes.hpp>
 
 #include <cfenv>
 

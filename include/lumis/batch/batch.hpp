@@ -6,11 +6,11 @@
 // to a few units in the last place: compilers fuse multiplications and additions differently.
 #pragma once
 
-#include "lumis/batch/lanes.hpp"
 #include "lumis/combine/heuristics.hpp"
 #include "lumis/core/assert.hpp"
 #include "lumis/core/detail/for_each_index.hpp"
 #include "lumis/core/detail/held.hpp"
+#include "lumis/core/lanes.hpp"
 #include "lumis/core/strategy.hpp"
 
 #include <array>

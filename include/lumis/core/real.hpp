@@ -1,5 +1,5 @@
 // The arithmetic that kernels are written in. A kernel is written once, for a Real: a floating-point type for the single
-// call, or several lanes of one (see batch/lanes.hpp). Where lanes may differ, a kernel selects instead of branching.
+// call, or several lanes of one (see core/lanes.hpp). Where lanes may differ, a kernel selects instead of branching.
 //
 // A kernel keeps two rules, so that a host may trap floating-point exceptions and may compile with -ffast-math:
 // 1. It never divides 0 by 0, a number by 0, or takes the root of a negative number, not even to discard the result.

@@ -20,7 +20,7 @@ using UniformsOf = glm::vec<S::dimensions, typename S::Scalar>;
 // sample(u) draws a point and reports pdf(point); pdf(x) is total: 0 off the support, never negative, never NaN.
 // Both are pure, noexcept, and take numbers, never a generator, so that any sampler fits (Sobol, Halton, a host's own).
 template <class S>
-concept Strategy = FloatOrDouble<typename S::Scalar> && std::integral<std::remove_cv_t<decltype(S::dimensions)>> &&
+concept Strategy = Real<typename S::Scalar> && std::integral<std::remove_cv_t<decltype(S::dimensions)>> &&
     requires(const S strategy, UniformsOf<S> u, typename S::Point x) {
     typename S::Measure;
     { strategy.sample(u).value } -> std::convertible_to<typename S::Point>;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "lumis/core/platform.hpp"
-#include "lumis/core/scalar.hpp"
+#include "lumis/core/real.hpp"
 
 #include <glm/ext/vector_double1.hpp>
 #include <glm/ext/vector_float1.hpp>
@@ -22,7 +22,7 @@ namespace lumis {
 
 // next<N>() yields N uniforms at once; x is drawn first. What it returns is converted to glm::vec<N, T>.
 template <class U, class T>
-concept UniformSource = FloatOrDouble<T> && requires(U uniforms) {
+concept UniformSource = Real<T> && requires(U uniforms) {
     { uniforms.template next<1>() } -> std::convertible_to<glm::vec<1, T>>;
     { uniforms.template next<2>() } -> std::convertible_to<glm::vec<2, T>>;
     { uniforms.template next<3>() } -> std::convertible_to<glm::vec<3, T>>;
