@@ -211,3 +211,16 @@ TEST_CASE("an environment map is held by reference", "[technique]") {
     STATIC_REQUIRE_FALSE(std::is_reference_v<decltype(owned.strategy)>);
     CHECK(owned.strategy.width() == 4);
 }
+
+TEST_CASE("a combination is trivially copyable where its parts are", "[technique]") {
+    const lumis::CosineHemisphere<float> cosine;
+    const lumis::AreaLight light{lumis::Sphere{glm::vec3{0, 0, 3}, 1.0f}, glm::vec3{0}};
+    const lumis::Mixture mixture{choose(0.5, cosine), choose(0.5, light)};
+    const auto multi = lumis::multi_sample(lumis::PowerHeuristic{}, take(1, cosine), take(2, light), take(1, mixture));
+    const auto one = lumis::one_sample(lumis::BalanceHeuristic{}, choose(0.5, cosine), choose(0.5, std::cref(light)));
+    STATIC_REQUIRE(std::is_trivially_copyable_v<decltype(mixture)>);
+    STATIC_REQUIRE(std::is_trivially_copyable_v<decltype(multi)>);
+    STATIC_REQUIRE(std::is_trivially_copyable_v<decltype(one)>);
+    const auto copy = multi;
+    CHECK(copy.densities({0, 0, 1}) == multi.densities({0, 0, 1}));
+}

@@ -3,6 +3,8 @@
 // one-sample model.
 #pragma once
 
+#include "lumis/combine/detail/nearest.hpp"
+#include "lumis/combine/detail/parts.hpp"
 #include "lumis/combine/heuristics.hpp"
 #include "lumis/combine/integrand.hpp"
 #include "lumis/combine/technique.hpp"
@@ -10,12 +12,10 @@
 #include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/core/uniforms.hpp"
-#include "lumis/lights/detail/nearest.hpp"
 
 #include <array>
 #include <cstddef>
 #include <span>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -51,6 +51,12 @@ template <class H>
 concept NoTechnique = std::is_class_v<H> && !requires(const H technique) {
     technique.strategy;
 };
+// A heuristic that gives what can be drawn a positive weight: it need not be compared to 0.
+template <class H>
+concept AlwaysPositive = requires {
+    requires H::is_positive;
+};
+
 template <class H, class... S>
 concept NeverAsked = (number_of_smooth<S...> <= 1) && NoTechnique<H>;
 
@@ -86,7 +92,7 @@ class Combination {
 
     template <std::size_t I>
     [[nodiscard]] LUMIS_HD const auto& strategy() const noexcept LUMIS_LIFETIME_BOUND {
-        return std::get<I>(strategies_);
+        return detail::part<I>(strategies_);
     }
 
   protected:
@@ -94,7 +100,7 @@ class Combination {
     // estimator at every point that it lights.
     template <class... Techniques>
     LUMIS_HD constexpr Combination(const H& heuristic, std::array<Scalar, size> factors, Techniques&&... techniques)
-        : heuristic_{heuristic}, factors_{factors}, strategies_{std::forward<Techniques>(techniques).strategy...} {}
+        : heuristic_{heuristic}, factors_{factors}, strategies_{{std::forward<Techniques>(techniques).strategy}...} {}
 
     // What one sample of technique I adds to an estimate of the integral of f: weight f / (factor_I pdf).
     template <std::size_t I, class F, class U>
@@ -120,7 +126,7 @@ class Combination {
 
   private:
     template <std::size_t I>
-    using Nth = std::remove_cvref_t<std::tuple_element_t<I, std::tuple<First, Rest...>>>;
+    using Nth = typename detail::NthStrategy<I, First, Rest...>::type;
     template <std::size_t I>
     static constexpr bool is_delta = DeltaStrategy<Nth<I>>;
     static constexpr std::size_t number_of_smooth = detail::number_of_smooth<First, Rest...>;
@@ -143,7 +149,7 @@ class Combination {
                 return Value(detail::quotient(detail::evaluate<is_delta<I>>(f, whole), own));
             } else {
                 const Scalar weight = weight_given<I>(sample.value, [&] { return own; });
-                if constexpr (!requires { requires H::is_positive; }) {
+                if constexpr (!detail::AlwaysPositive<H>) {
                     if (!(weight > 0)) return Value{};
                 }
                 const auto& whole = seen<I, only_point>(sample);
@@ -200,7 +206,7 @@ class Combination {
 
     [[no_unique_address]] H heuristic_;
     std::array<Scalar, size> factors_;
-    std::tuple<First, Rest...> strategies_;
+    detail::Parts<First, Rest...> strategies_;
 };
 
 }  // namespace lumis

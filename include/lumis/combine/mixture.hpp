@@ -2,18 +2,18 @@
 // or a safe density mixed into a risky one (defensive sampling, Hesterberg 1995).
 #pragma once
 
+#include "lumis/combine/detail/nearest.hpp"
+#include "lumis/combine/detail/parts.hpp"
 #include "lumis/combine/technique.hpp"
 #include "lumis/core/detail/for_each_index.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/strategy.hpp"
-#include "lumis/lights/detail/nearest.hpp"
 
 #include <array>
 #include <concepts>
 #include <cstddef>
 #include <limits>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -47,7 +47,7 @@ class Mixture {
     LUMIS_HD explicit constexpr Mixture(Choose<First> first LUMIS_LIFETIME_BOUND,
                                         Choose<Rest>... rest LUMIS_LIFETIME_BOUND)
         : probabilities_{detail::selectable(std::array<Scalar, size>{first.probability, rest.probability...})},
-          parts_{std::forward<First>(first.strategy), std::forward<Rest>(rest.strategy)...} {}
+          parts_{{std::forward<First>(first.strategy)}, {std::forward<Rest>(rest.strategy)}...} {}
 
     // u.x selects the part, which gets the other numbers: stretching u.x for it would leave a rare part few bits.
     [[nodiscard]] LUMIS_HD SampleType sample(glm::vec<dimensions, Scalar> u) const noexcept {
@@ -62,7 +62,7 @@ class Mixture {
     [[nodiscard]] LUMIS_HD Scalar pdf(const Point& x) const noexcept {
         Scalar sum = 0;
         detail::for_each_index<size>([&](auto i) {
-            if (probabilities_[i] > 0) sum += probabilities_[i] * static_cast<Scalar>(std::get<i>(parts_).pdf(x));
+            if (probabilities_[i] > 0) sum += probabilities_[i] * static_cast<Scalar>(detail::part<i>(parts_).pdf(x));
         });
         return density_or_zero(sum);
     }
@@ -99,8 +99,8 @@ class Mixture {
     template <std::size_t I, class Result>
     [[nodiscard]] LUMIS_HD Result draw_part(glm::vec<dimensions, Scalar> u) const noexcept {
         constexpr bool with_distance = std::same_as<Result, LightSample<Point, Scalar>>;
-        using Part = std::remove_cvref_t<std::tuple_element_t<I, std::tuple<First, Rest...>>>;
-        const Part& part = std::get<I>(parts_);
+        using Part = typename detail::NthStrategy<I, First, Rest...>::type;
+        const Part& part = detail::part<I>(parts_);
         const auto drawn = [&] {
             const auto rest = without_first<Part::dimensions>(u);
             if constexpr (!with_distance && detail::SamplesPoints<Part>) {
@@ -118,7 +118,7 @@ class Mixture {
     }
 
     std::array<Scalar, size> probabilities_;
-    std::tuple<First, Rest...> parts_;
+    detail::Parts<First, Rest...> parts_;
 };
 
 }  // namespace lumis

@@ -63,6 +63,21 @@ concept LightStrategy = Strategy<S> && requires(const S light, typename S::Point
     { light.distance_along(w) } -> std::same_as<typename S::Scalar>;
 };
 
+namespace detail {
+
+template <class S>
+concept DrawsDistance = requires(const S strategy, UniformsOf<S> u) {
+    strategy.sample(u).distance;
+};
+
+// Draws a point and its density alone, too: sample looks for the nearest light as well.
+template <class S>
+concept SamplesPoints = requires(const S strategy, UniformsOf<S> u) {
+    strategy.sample_point(u);
+};
+
+}  // namespace detail
+
 // Tells an integrand that its point came from a delta strategy and that it is asked for the coefficient.
 struct delta_t {
     explicit delta_t() = default;

@@ -9,7 +9,6 @@
 #include "lumis/core/detail/spannable.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
-#include "lumis/lights/detail/nearest.hpp"
 #include "lumis/tables/alias_table.hpp"
 
 #include <concepts>

@@ -2,6 +2,7 @@
 // direction: a shadow ray that stops at the nearest light finds what is really seen there.
 #pragma once
 
+#include "lumis/combine/detail/parts.hpp"
 #include "lumis/core/detail/for_each_index.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
@@ -11,36 +12,24 @@
 #include <concepts>
 #include <cstddef>
 #include <limits>
-#include <tuple>
-#include <type_traits>
+#include <utility>
 
 namespace lumis::detail {
-
-template <class S>
-concept DrawsDistance = requires(const S strategy, UniformsOf<S> u) {
-    strategy.sample(u).distance;
-};
 
 // Combined strategies know the nearest light if there is a light among them, and each whose samples have a distance
 // tells it along any direction. A delta light hides nothing: its samples keep the distance that they come with.
 template <class... S>
 concept KnowNearest = (LightStrategy<S> || ...) && ((LightStrategy<S> || DeltaStrategy<S> || !DrawsDistance<S>)&&...);
 
-// Draws a point and its density alone, too: sample looks for the nearest light as well.
-template <class S>
-concept SamplesPoints = requires(const S strategy, UniformsOf<S> u) {
-    strategy.sample_point(u);
-};
-
 inline constexpr std::size_t no_index = ~std::size_t{};
 
 // The least of `nearest` and the distances to the lights among the strategies along w, except that to number `skipped`.
-template <std::size_t skipped = no_index, class... S, class Point, std::floating_point T>
-[[nodiscard]] LUMIS_HD T nearest_along(const std::tuple<S...>& strategies, const Point& w, T nearest) noexcept {
+template <std::size_t skipped = no_index, std::size_t... I, class... S, class Point, std::floating_point T>
+[[nodiscard]] LUMIS_HD T nearest_along(const IndexedParts<std::index_sequence<I...>, S...>& strategies, const Point& w,
+                                       T nearest) noexcept {
     for_each_index<sizeof...(S)>([&](auto k) {
-        using Other = std::remove_cvref_t<std::tuple_element_t<k, std::tuple<S...>>>;
-        if constexpr (k != skipped && LightStrategy<Other>) {
-            nearest = real::lesser(nearest, std::get<k>(strategies).distance_along(w));
+        if constexpr (k != skipped && LightStrategy<typename NthStrategy<k, S...>::type>) {
+            nearest = real::lesser(nearest, part<k>(strategies).distance_along(w));
         }
     });
     return nearest;
