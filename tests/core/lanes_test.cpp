@@ -81,12 +81,15 @@ TEMPLATE_TEST_CASE("each lane does as its number would alone", "[lanes]", lumis:
     }
 }
 
-TEMPLATE_TEST_CASE("a condition on all lanes", "[lanes]", lumis::NativeLanes<float>, lumis::NativeLanes<double>) {
+TEMPLATE_TEST_CASE("a condition on lanes", "[lanes]", lumis::NativeLanes<float>, lumis::NativeLanes<double>,
+                   (lumis::Lanes<float, 2>), (lumis::Lanes<float, 32>), (lumis::Lanes<double, 16>)) {
     using L = TestType;
     using Mask = typename L::Mask;
     using T = typename L::Lane;
     CHECK(Mask{true}.all());
     CHECK_FALSE(Mask{false}.all());
+    CHECK(Mask{true}.any());
+    CHECK_FALSE(Mask{false}.any());
     for (std::size_t i = 0; i < L::size; ++i) {
         L lanes = T(1);
         CHECK(lumis::real::all(lanes > 0));
@@ -94,6 +97,10 @@ TEMPLATE_TEST_CASE("a condition on all lanes", "[lanes]", lumis::NativeLanes<flo
         CHECK_FALSE(lumis::real::all(lanes > 0));
         lanes.set(i, std::numeric_limits<T>::quiet_NaN());
         CHECK_FALSE(lumis::real::all(lanes > 0));
+        CHECK_FALSE(lumis::real::any(lanes < 0));
+        lanes.set(i, T(-1));
+        CHECK(lumis::real::any(lanes < 0));
+        CHECK_FALSE(lumis::real::any(lanes == 0));
     }
 }
 

@@ -43,14 +43,42 @@ class LaneMask {
     LUMIS_INLINE friend LaneMask operator||(LaneMask a, LaneMask b) noexcept { return LaneMask{a.v_ | b.v_}; }
     LUMIS_INLINE friend LaneMask operator!(LaneMask a) noexcept { return LaneMask{~a.v_}; }
 
-    [[nodiscard]] LUMIS_INLINE bool all() const noexcept {
-        Bits every = v_[0];
-        for (std::size_t i = 1; i < N; ++i) every &= v_[i];
-        return every != 0;
-    }
+    // Whether it holds in every lane, and whether it holds in any.
+    [[nodiscard]] LUMIS_INLINE bool all() const noexcept { return !(!*this).any(); }
+    [[nodiscard]] LUMIS_INLINE bool any() const noexcept { return any_bit(v_); }
     [[nodiscard]] LUMIS_INLINE Vector vector() const noexcept { return v_; }
 
   private:
+    // By the processor's instruction: g++ would take the vector apart by way of memory. Wider vectors are halved first.
+    template <class V>
+    LUMIS_INLINE static bool any_bit(V v) noexcept {
+#if defined(__AVX__)
+        constexpr std::size_t widest = 32;
+        if constexpr (sizeof(V) == 32) {
+            using Floats LUMIS_VECTOR(32) = float;
+            return __builtin_ia32_movmskps256(reinterpret_cast<Floats>(v)) != 0;
+        }
+#else
+        constexpr std::size_t widest = 16;
+#endif
+#if defined(__SSE2__)
+        if constexpr (sizeof(V) == 16) {
+            using Floats LUMIS_VECTOR(16) = float;
+            return __builtin_ia32_movmskps(reinterpret_cast<Floats>(v)) != 0;
+        }
+#endif
+        if constexpr (sizeof(V) > widest) {
+            using Half LUMIS_VECTOR(sizeof(V) / 2) = Bits;
+            Half halves[2];
+            std::memcpy(halves, &v, sizeof(V));
+            return any_bit(Half(halves[0] | halves[1]));
+        } else {
+            Bits some = v[0];
+            for (std::size_t i = 1; i < sizeof(V) / sizeof(Bits); ++i) some |= v[i];
+            return some != 0;
+        }
+    }
+
     Vector v_;
 };
 

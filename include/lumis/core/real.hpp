@@ -295,6 +295,15 @@ template <class Mask>
     return condition.all();
 }
 
+// Whether it holds in any.
+[[nodiscard]] LUMIS_HD constexpr bool any(bool condition) noexcept {
+    return condition;
+}
+template <class Mask>
+[[nodiscard]] LUMIS_HD constexpr bool any(const Mask& condition) noexcept {
+    return condition.any();
+}
+
 }  // namespace real
 
 }  // namespace lumis
