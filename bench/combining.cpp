@@ -62,7 +62,7 @@ void add_many(const std::string& name, const Heuristic& heuristic, std::size_t t
                 [=](const auto& h, const std::vector<T>& densities, std::size_t, Results<T>& out) {
                     for (std::size_t i = 0; i < batch; ++i) {
                         const std::span<const T> q{densities.data() + i * techniques, techniques};
-                        out.weight[i] = lumis::mis_weight(h, q, i % techniques);
+                        out.weight[i] = lumis::mis_weight(h, i % techniques, q);
                     }
                 });
 }

@@ -29,7 +29,7 @@ void check_power_weights(Measured& measured, const std::vector<T>& densities, in
     for (std::size_t i = 0; i < densities.size(); ++i) {
         const std::span<const T> span{densities};
         const T weight =
-            beta == 1 ? lumis::mis_weight(lumis::BalanceHeuristic{}, span, i) : lumis::mis_weight(power, span, i);
+            beta == 1 ? lumis::mis_weight(lumis::BalanceHeuristic{}, i, span) : lumis::mis_weight(power, i, span);
         measured.density(weight);
         measured.expect(weight <= 1);
         sum += Quad{weight};

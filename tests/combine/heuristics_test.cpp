@@ -46,7 +46,7 @@ template <class H, class T>
 std::vector<T> weights(const H& heuristic, const std::vector<T>& densities) {
     std::vector<T> result;
     for (std::size_t i = 0; i < densities.size(); ++i) {
-        result.push_back(lumis::mis_weight(heuristic, std::span<const T>{densities}, i));
+        result.push_back(lumis::mis_weight(heuristic, i, std::span<const T>{densities}));
     }
     return result;
 }
@@ -191,7 +191,7 @@ TEMPLATE_TEST_CASE("NaN weighs nothing and fails an assertion wherever it stands
                 p[position] = not_a_number<T>;
                 for (std::size_t own = 0; own < 3; ++own) {
                     const CaughtAssertions caught;
-                    CHECK(lumis::mis_weight(heuristic, std::span<const T>{p}, own) == 0);
+                    CHECK(lumis::mis_weight(heuristic, own, std::span<const T>{p}) == 0);
                     CHECK(caught.count() >= 1);
                 }
             }
@@ -220,9 +220,9 @@ TEMPLATE_TEST_CASE("the two forms of mis_weight agree", "[heuristics]", float, d
         const std::array<T, 4> p{T(0.1), 3, T(1e-20), 7};
         const std::span<const T> all{p};
         const auto agree = [](T a, T b) { return std::abs(a - b) <= 4 * epsilon<T> * b; };
-        CHECK(lumis::mis_weight(heuristic, all, 0) == lumis::mis_weight(heuristic, p[0], p[1], p[2], p[3]));
-        CHECK(agree(lumis::mis_weight(heuristic, all, 1), lumis::mis_weight(heuristic, p[1], p[0], p[2], p[3])));
-        CHECK(agree(lumis::mis_weight(heuristic, all, 3), lumis::mis_weight(heuristic, p[3], p[0], p[1], p[2])));
+        CHECK(lumis::mis_weight(heuristic, 0, all) == lumis::mis_weight(heuristic, p[0], p[1], p[2], p[3]));
+        CHECK(agree(lumis::mis_weight(heuristic, 1, all), lumis::mis_weight(heuristic, p[1], p[0], p[2], p[3])));
+        CHECK(agree(lumis::mis_weight(heuristic, 3, all), lumis::mis_weight(heuristic, p[3], p[0], p[1], p[2])));
     });
 }
 

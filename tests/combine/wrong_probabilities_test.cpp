@@ -126,7 +126,7 @@ TEMPLATE_TEST_CASE("parameters of heuristics out of range", "[wrong_probabilitie
         const auto add_up = [&] {
             sum = 0;
             for (std::size_t i = 0; i < 3; ++i) {
-                const T weight = lumis::mis_weight(heuristic, std::span<const T>{densities}, i);
+                const T weight = lumis::mis_weight(heuristic, i, std::span<const T>{densities});
                 CHECK((weight >= 0 && weight <= 1));
                 sum += weight;
             }

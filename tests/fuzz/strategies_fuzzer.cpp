@@ -74,7 +74,7 @@ void check_heuristic(const H& heuristic, std::span<const T> densities, bool sums
     T sum = 0;
     bool any = false;
     for (std::size_t i = 0; i < densities.size(); ++i) {
-        const T weight = lumis::mis_weight(heuristic, densities, i);
+        const T weight = lumis::mis_weight(heuristic, i, densities);
         CHECK(weight >= 0 && weight <= 1);
         CHECK(densities[i] > 0 || weight == 0);
         sum += weight;

@@ -221,8 +221,8 @@ TEMPLATE_TEST_CASE("heuristics raise no floating-point exception", "[exceptions]
                     std::vector<T> many(size, b);
                     many[1] = a;
                     CHECK(exceptions_raised_by([&] {
-                              keep(lumis::mis_weight(heuristic, std::span<const T>{many}, 0));
-                              keep(lumis::mis_weight(heuristic, std::span<const T>{many}, 1));
+                              keep(lumis::mis_weight(heuristic, 0, std::span<const T>{many}));
+                              keep(lumis::mis_weight(heuristic, 1, std::span<const T>{many}));
                           }) == 0);
                 }
             }

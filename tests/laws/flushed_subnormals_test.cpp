@@ -41,8 +41,8 @@ TEMPLATE_TEST_CASE("flushed squares of densities change no weight", "[heuristics
             auto scaled = p;
             for (T& density : scaled) density = std::ldexp(density, exponent);
             for (std::size_t i = 0; i < p.size(); ++i) {
-                const T expected = lumis::mis_weight(heuristic, std::span<const T>{p}, i);
-                const T weight = lumis::mis_weight(heuristic, std::span<const T>{scaled}, i);
+                const T expected = lumis::mis_weight(heuristic, i, std::span<const T>{p});
+                const T weight = lumis::mis_weight(heuristic, i, std::span<const T>{scaled});
                 INFO("times 2^" << exponent);
                 REQUIRE(std::abs(weight - expected) <= 2 * std::numeric_limits<T>::epsilon() * expected);
             }

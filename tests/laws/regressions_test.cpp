@@ -146,7 +146,7 @@ TEMPLATE_TEST_CASE("a power that vanishes gives a technique without density no s
     const std::vector<T> densities{T(2), T(0), T(3)};
     T sum = 0;  // was 2/3: pow(0, 0) is 1
     for (std::size_t i = 0; i < 3; ++i) {
-        sum += lumis::mis_weight(lumis::PowerHeuristic{1e-320}, std::span<const T>{densities}, i);
+        sum += lumis::mis_weight(lumis::PowerHeuristic{1e-320}, i, std::span<const T>{densities});
     }
     CHECK(std::abs(sum - 1) <= T(1e-5));
 }

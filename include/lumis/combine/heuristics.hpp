@@ -117,35 +117,47 @@ template <std::floating_point T, class Densities, class Share>
     return weight > 0 ? weight : T(0);
 }
 
-// The weights of lanes by the heuristic for numbers, one lane after the other.
+// The weights of lanes by the heuristic for numbers, one lane after the other; those where `settled` holds stay as they are.
 template <Real R, std::size_t N, class H>
-[[nodiscard]] LUMIS_NOINLINE R weight_lane_by_lane(const H& heuristic, std::size_t own,
-                                                   std::span<const R, N> densities) noexcept {
+[[nodiscard]] LUMIS_NOINLINE R weight_lane_by_lane(const H& heuristic, std::size_t own, std::span<const R, N> densities,
+                                                   MaskOf<R> settled, R weights) noexcept {
     using T = scalar_of<R>;
-    R weights;
+    const R is_settled = real::select(settled, R(T(1)), R(T(0)));
     for (std::size_t lane = 0; lane < R::size; ++lane) {
+        if (is_settled[lane] > 0) continue;
         std::array<T, N> alone;
         for_each_index<N>([&](auto k) { alone[k] = densities[k][lane]; });
-        weights.set(lane, heuristic(own, std::span<const T, N>{alone}));
+        weights.set(lane, static_cast<T>(heuristic(own, std::span<const T, N>{alone})));
     }
     return weights;
+}
+template <Real R, std::size_t N, class H>
+[[nodiscard]] LUMIS_HD R weight_lane_by_lane(const H& heuristic, std::size_t own,
+                                             std::span<const R, N> densities) noexcept {
+    return weight_lane_by_lane(heuristic, own, densities, MaskOf<R>(false), R(scalar_of<R>(0)));
 }
 
 // The share of technique `own` in the sum of all. Two comparisons find densities that need scaling or the policy: a share
 // so small that others, which were flushed to 0, may be missing in the sum; a sum that has overflowed or holds an Inf or a
-// NaN. All others take the short way.
+// NaN. All others take the short way, and so do lanes in which the technique itself has no share.
 template <Real R, std::size_t N, class H, class Share>
 [[nodiscard]] LUMIS_INLINE inline R weight_by_shares(const H& heuristic, std::size_t own,
                                                      std::span<const R, N> densities, Share share) noexcept {
     using T = scalar_of<R>;
     const R sum = sum_of(densities, [&](R density) { return share(density, T(1)); });
     const R own_share = share(densities[own], T(1));
-    if (real::all(own_share >= least_share<T> && sum <= largest_sum<T>)) [[likely]]
-        return real::divide(own_share, sum);
     if constexpr (std::floating_point<R>) {
+        if (own_share >= least_share<T> && sum <= largest_sum<T>) [[likely]]
+            return real::divide(own_share, sum);
         return weight_at_scale<T>(own, by_value(densities), share);
     } else {
-        return weight_lane_by_lane(heuristic, own, densities);
+        // A share that is 0 as rounded stays 0 where the sum is 1 or more.
+        const auto none = densities[own] == 0 || (own_share == 0 && sum >= 1);
+        const auto settled = (own_share >= least_share<T> || none) && sum <= largest_sum<T>;
+        const R weights = real::divide(own_share, real::divisor_where(settled && sum > 0, sum));
+        if (real::all(settled)) [[likely]]
+            return weights;
+        return weight_lane_by_lane(heuristic, own, densities, settled, weights);
     }
 }
 
@@ -280,32 +292,36 @@ PartitionWeights(Owner) -> PartitionWeights<Owner>;
 
 namespace detail {
 
-// Calls a heuristic with the number of densities known at compile time, if it accepts such a span.
+// Calls a heuristic with the number of densities known at compile time, if it accepts such a span. Lanes are weighed one
+// after the other by a heuristic that is written for numbers.
 template <class H, Real R, std::size_t N>
 [[nodiscard]] LUMIS_INLINE inline R weigh(const H& heuristic, std::size_t own,
                                           std::span<const R, N> densities) noexcept {
     if constexpr (std::invocable<const H&, std::size_t, std::span<const R, N>>) {
         return static_cast<R>(heuristic(own, densities));
-    } else {
+    } else if constexpr (std::floating_point<R> || std::invocable<const H&, std::size_t, std::span<const R>>) {
         return static_cast<R>(heuristic(own, std::span<const R>{densities}));
+    } else {
+        const auto of_numbers = [&](std::size_t i, auto alone) { return weigh(heuristic, i, alone); };
+        return weight_lane_by_lane(of_numbers, own, densities);
     }
 }
 
 }  // namespace detail
 
-// The weight of one technique from all effective densities, for hundreds of techniques known at run time.
+// The weight of technique `own` from all effective densities, for hundreds of techniques known at run time.
 template <class H, FloatOrDouble T>
     requires DensityHeuristic<H, T>
-[[nodiscard]] LUMIS_HD T mis_weight(const H& heuristic, std::span<const T> densities, std::size_t own) noexcept {
+[[nodiscard]] LUMIS_HD T mis_weight(const H& heuristic, std::size_t own, std::span<const T> densities) noexcept {
     return static_cast<T>(heuristic(own, densities));
 }
 
 // The weight of the technique that drew a point with effective density `own` = n p, against the others that could have:
-// what a path tracer needs at a hit.
-template <class H, FloatOrDouble T>
-    requires DensityHeuristic<H, T>
-[[nodiscard]] LUMIS_HD T mis_weight(const H& heuristic, T own, std::convertible_to<T> auto... others) noexcept {
-    const std::array densities{own, static_cast<T>(others)...};
+// what a path tracer needs at a hit. Numbers, or lanes of them.
+template <class H, Real R>
+    requires DensityHeuristic<H, scalar_of<R>>
+[[nodiscard]] LUMIS_HD R mis_weight(const H& heuristic, R own, std::convertible_to<R> auto... others) noexcept {
+    const std::array densities{own, static_cast<R>(others)...};
     return detail::weigh(heuristic, 0, std::span{densities});
 }
 
