@@ -6,6 +6,7 @@
 //   LUMIS_NOINLINE         a call, so that what is rare does not crowd what is frequent
 //   LUMIS_COLD             the same, and rarely run
 //   LUMIS_VECTOR(bytes)    in an alias of a number's type: a vector of them; only where LUMIS_HAS_VECTORS is defined
+//   LUMIS_HAS_EXCEPTIONS   defined unless exceptions are off (-fno-exceptions), see core/throw.hpp
 //   LUMIS_LIFETIME_BOUND   behind a parameter that a result refers to: clang++ warns where the result outlives it
 #pragma once
 
@@ -45,4 +46,8 @@
 #undef LUMIS_LIFETIME_BOUND
 #define LUMIS_LIFETIME_BOUND [[clang::lifetimebound]]
 #endif
+#endif
+
+#if defined(__cpp_exceptions) || defined(_CPPUNWIND)
+#define LUMIS_HAS_EXCEPTIONS
 #endif

@@ -25,7 +25,6 @@
 #include <numbers>
 #include <numeric>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>

@@ -9,12 +9,12 @@
 #include "lumis/core/detail/spannable.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
+#include "lumis/core/throw.hpp"
 #include "lumis/tables/alias_table.hpp"
 
 #include <concepts>
 #include <cstddef>
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -139,8 +139,8 @@ class LightSet {
         if constexpr (requires { std::size(lights_); }) {
             const std::size_t count = std::size(lights_);
             if (count != table_.size() && !(count == 0 && table_.empty())) {
-                throw std::invalid_argument("lumis: " + std::to_string(count) + " lights got " +
-                                            std::to_string(table_.size()) + " weights");
+                detail::refuse("lumis: " + std::to_string(count) + " lights got " + std::to_string(table_.size()) +
+                               " weights");
             }
         }
     }

@@ -5,6 +5,7 @@
 
 #include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
+#include "lumis/core/throw.hpp"
 #include "lumis/tables/detail/cumulative_counts.hpp"
 #include "lumis/tables/detail/guided_rows.hpp"
 
@@ -15,7 +16,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -120,8 +120,8 @@ class CountGrid {
   private:
     LUMIS_HD static std::size_t checked(std::integral auto extent, const char* name) {
         if (extent <= 0 || std::cmp_greater(extent, total_counts<T>)) {
-            throw std::invalid_argument(std::string("lumis: a grid's ") + name + " is " + std::to_string(extent) +
-                                        "; it must be from 1 to " + std::to_string(total_counts<T>));
+            refuse(std::string("lumis: a grid's ") + name + " is " + std::to_string(extent) +
+                   "; it must be from 1 to " + std::to_string(total_counts<T>));
         }
         return static_cast<std::size_t>(extent);
     }
@@ -130,8 +130,8 @@ class CountGrid {
                                         std::size_t values) {
         const std::size_t height = checked(extent, name);
         if (values != width * height) {
-            throw std::invalid_argument("lumis: a grid of " + std::to_string(width) + " x " + std::to_string(height) +
-                                        " got " + std::to_string(values) + " values");
+            refuse("lumis: a grid of " + std::to_string(width) + " x " + std::to_string(height) + " got " +
+                   std::to_string(values) + " values");
         }
         return height;
     }

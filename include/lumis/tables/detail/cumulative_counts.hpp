@@ -5,6 +5,7 @@
 
 #include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
+#include "lumis/core/throw.hpp"
 #include "lumis/core/uniforms.hpp"
 
 #include <cmath>
@@ -13,7 +14,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -53,8 +53,8 @@ LUMIS_HD void require_weights(std::span<const T> weights, std::size_t row_size, 
     if (real::largest_of(is_bad) == 0) return;
     std::size_t i = 0;
     while (is_weight(weights[i])) ++i;
-    throw std::invalid_argument("lumis: weight " + std::to_string(i) + " is " + std::to_string(weights[i]) +
-                                "; weights must be finite and not negative");
+    refuse("lumis: weight " + std::to_string(i) + " is " + std::to_string(weights[i]) +
+           "; weights must be finite and not negative");
 }
 template <std::floating_point T>
 LUMIS_HD void require_weights(std::span<const T> weights) {
@@ -149,12 +149,11 @@ inline constexpr double largest_excess = 0.25;
 template <std::floating_point T>
 LUMIS_HD void require_enough_counts(const Dealt& dealt) {
     if (dealt.excess <= largest_excess) return;
-    throw std::invalid_argument(
-        "lumis: " + std::to_string(dealt.dim) + " weights are less than 1/" + std::to_string(total_counts<T>) +
-        " of the sum, the least probability of a table in this precision, and would take " +
-        std::to_string(100 * dealt.excess) + " % of the draws beyond their share; at most 25 % are allowed. " +
-        (total_counts<T> < total_counts<double> ? "AliasTable<double> and FineAliasTable have 2^31. " : "") +
-        "Draw such weights from a table of their own, or merge them");
+    refuse("lumis: " + std::to_string(dealt.dim) + " weights are less than 1/" + std::to_string(total_counts<T>) +
+           " of the sum, the least probability of a table in this precision, and would take " +
+           std::to_string(100 * dealt.excess) + " % of the draws beyond their share; at most 25 % are allowed. " +
+           (total_counts<T> < total_counts<double> ? "AliasTable<double> and FineAliasTable have 2^31. " : "") +
+           "Draw such weights from a table of their own, or merge them");
 }
 
 // An entry drawn by a uniform, its number of counts, and where within the run of counts the uniform lies, in (0, 1].
@@ -203,8 +202,8 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] LUMIS_HD std::size_t checked_size(std::size_t size) {
     if (size == 0 || size > total_counts<T>) {
-        throw std::invalid_argument("lumis: a table of " + std::to_string(size) + " weights; there must be from 1 to " +
-                                    std::to_string(total_counts<T>));
+        refuse("lumis: a table of " + std::to_string(size) + " weights; there must be from 1 to " +
+               std::to_string(total_counts<T>));
     }
     return size;
 }
