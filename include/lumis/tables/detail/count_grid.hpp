@@ -129,7 +129,7 @@ class CountGrid {
     LUMIS_HD static std::size_t checked(std::integral auto extent, const char* name, std::size_t width,
                                         std::size_t values) {
         const std::size_t height = checked(extent, name);
-        if (values != width * height) {
+        if (values != std::uint64_t{width} * height) {  // a std::size_t of 32 bits may be too small for the product
             refuse("lumis: a grid of " + std::to_string(width) + " x " + std::to_string(height) + " got " +
                    std::to_string(values) + " values");
         }
