@@ -43,8 +43,10 @@ bool same_bits(T a, T b) {
 
 }  // namespace
 
+// Less than a register, a register, and several.
 TEMPLATE_TEST_CASE("each lane does as its number would alone", "[lanes]", lumis::NativeLanes<float>,
-                   lumis::NativeLanes<double>) {
+                   lumis::NativeLanes<double>, (lumis::Lanes<float, 1>), (lumis::Lanes<float, 2>),
+                   (lumis::Lanes<float, 8>), (lumis::Lanes<float, 32>), (lumis::Lanes<double, 16>)) {
     using L = TestType;
     using T = typename L::Lane;
     namespace real = lumis::real;
@@ -64,6 +66,8 @@ TEMPLATE_TEST_CASE("each lane does as its number would alone", "[lanes]", lumis:
         same(c * a, [](T x, T) { return 2 * x; });
         same(1 - a, [](T x, T) { return 1 - x; });
         same(real::sqrt(a), [](T x, T) { return std::sqrt(x); });
+        same(real::rounded(a), [](T x, T) { return x; });
+        same(L::of_lanes([&](auto i) { return b[i]; }), [](T, T y) { return y; });
         same(real::abs(a), [](T x, T) { return std::abs(x); });
         same(real::copysign(a, b), [](T x, T y) { return std::copysign(x, y); });
         same(real::lesser(a, b), [](T x, T y) { return std::min(x, y); });

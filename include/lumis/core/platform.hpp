@@ -5,7 +5,10 @@
 //   LUMIS_INLINE           part of its caller, whatever a compiler thinks of its size
 //   LUMIS_NOINLINE         a call, so that what is rare does not crowd what is frequent
 //   LUMIS_COLD             the same, and rarely run
-//   LUMIS_VECTOR(bytes)    in an alias of a number's type: a vector of them; only where LUMIS_HAS_VECTORS is defined
+//   LUMIS_HAS_BUILTIN(f)   whether the compiler has the built-in function f
+//   LUMIS_VECTOR(bytes)    in an alias of a number's type: a vector of them; only where LUMIS_HAS_VECTORS is defined. A host
+//                          that defines LUMIS_NO_VECTORS does without
+//   LUMIS_VECTOR_BYTES     how large the machine's registers for vectors are
 //   LUMIS_HAS_EXCEPTIONS   defined unless exceptions are off (-fno-exceptions), see core/throw.hpp
 //   LUMIS_LIFETIME_BOUND   behind a parameter that a result refers to: clang++ warns where the result outlives it
 #pragma once
@@ -34,10 +37,23 @@
 #define LUMIS_COLD LUMIS_HD
 #endif
 
-// The vector extensions of g++ and clang++. Device code has none.
-#if defined(__GNUC__) && !defined(__CUDA_ARCH__)
+#ifdef __has_builtin
+#define LUMIS_HAS_BUILTIN(name) __has_builtin(name)
+#else
+#define LUMIS_HAS_BUILTIN(name) 0
+#endif
+
+// The vector extensions of g++ and clang++. nvcc's device code has none, and a type must not change between its two passes.
+#if defined(__GNUC__) && !defined(__CUDACC__) && !defined(LUMIS_NO_VECTORS)
 #define LUMIS_HAS_VECTORS
 #define LUMIS_VECTOR(bytes) [[gnu::vector_size(bytes)]]
+#endif
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+#define LUMIS_VECTOR_BYTES 64
+#elif defined(__AVX__)
+#define LUMIS_VECTOR_BYTES 32
+#else
+#define LUMIS_VECTOR_BYTES 16
 #endif
 
 #define LUMIS_LIFETIME_BOUND

@@ -47,27 +47,14 @@ struct ScalarOf<R> {
     using type = typename R::Lane;
 };
 
-// A barrier against re-association, for a number or a compiler vector of them. Both compilers' built-in functions are
-// nothing without -fassociative-math, but g++'s keeps multiplications and additions from being fused all the same: it is
-// left out where the flags make arithmetic IEEE 754's.
+// x, of which the compiler is to know nothing more. A number, or a compiler's vector no larger than a register.
 template <class V>
-[[nodiscard]] LUMIS_INLINE constexpr V rounded(V x) noexcept {
-#if defined(__CUDA_ARCH__)
-    // The device re-associates nothing.
-#elif defined(__clang__) && __has_builtin(__arithmetic_fence)
-    if (!std::is_constant_evaluated()) return __arithmetic_fence(x);
-#elif defined(__GNUC__) && __GNUC__ >= 12 && __GCC_IEC_559 == 0
-    if (!std::is_constant_evaluated()) return __builtin_assoc_barrier(x);
-#endif
-    return x;
-}
-
-// x, of which the compiler is to know nothing more.
-template <std::floating_point T>
-[[nodiscard]] LUMIS_INLINE constexpr T opaque(T x) noexcept {
+[[nodiscard]] LUMIS_INLINE constexpr V opaque(V x) noexcept {
     if (!std::is_constant_evaluated()) {
 #if defined(__CUDA_ARCH__)
         // The device traps nothing.
+#elif defined(__GNUC__) && defined(__AVX512F__)
+        asm("" : "+v"(x));
 #elif defined(__GNUC__) && defined(__SSE2__)
         asm("" : "+x"(x));
 #elif defined(__GNUC__) && defined(__aarch64__)
@@ -76,6 +63,22 @@ template <std::floating_point T>
         asm("" : "+m"(x));
 #endif
     }
+    return x;
+}
+
+// A barrier against re-association, for a number or a compiler vector of them. Both compilers' built-in functions are
+// nothing without -fassociative-math, but g++'s keeps multiplications and additions from being fused all the same, and takes
+// vectors apart: it is left out where the flags make arithmetic IEEE 754's, and for registers.
+template <class V>
+[[nodiscard]] LUMIS_INLINE constexpr V rounded(V x) noexcept {
+#if defined(__CUDA_ARCH__)
+    // The device re-associates nothing.
+#elif defined(__clang__) && LUMIS_HAS_BUILTIN(__arithmetic_fence)
+    if (!std::is_constant_evaluated()) return __arithmetic_fence(x);
+#elif defined(__GNUC__) && __GNUC__ >= 12 && __GCC_IEC_559 == 0
+    if constexpr (!std::is_arithmetic_v<V> && sizeof(V) >= 16 && sizeof(V) <= LUMIS_VECTOR_BYTES) return opaque(x);
+    if (!std::is_constant_evaluated()) return __builtin_assoc_barrier(x);
+#endif
     return x;
 }
 
@@ -101,10 +104,10 @@ using MaskOf = decltype(R{} < R{});
 namespace real {
 
 // The square root by the processor's instruction. std::sqrt compares its argument first, and calls a function that sets
-// errno if it is negative. Without AVX, the vector that the built-in function takes costs as much as that comparison.
+// errno if it is negative. g++ has only a built-in function that takes a vector, which costs as much without AVX.
 template <Real R>
 [[nodiscard]] LUMIS_INLINE inline R sqrt(R x) noexcept {
-#if defined(__clang__) && defined(__SSE2__) && __FINITE_MATH_ONLY__
+#if defined(__clang__) && defined(__SSE2__) && !defined(__CUDACC__) && __FINITE_MATH_ONLY__
     // clang++ would estimate the root of a float (rsqrtss), which costs up to two units in the last place.
     if constexpr (std::same_as<R, float>) {
 #ifdef __AVX__
@@ -115,7 +118,9 @@ template <Real R>
         return x;
     }
 #endif
-#ifdef __AVX__
+#if LUMIS_HAS_BUILTIN(__builtin_elementwise_sqrt) && !defined(__CUDACC__)
+    if constexpr (std::floating_point<R>) return __builtin_elementwise_sqrt(x);
+#elif defined(__AVX__) && defined(LUMIS_HAS_VECTORS) && LUMIS_HAS_BUILTIN(__builtin_ia32_sqrtss)
     if constexpr (std::same_as<R, float>) {
         using Vector LUMIS_VECTOR(16) = float;
         return __builtin_ia32_sqrtss(Vector{x})[0];
@@ -141,7 +146,7 @@ template <Real R>
     if constexpr (std::floating_point<R>) {
         return detail::rounded(x);
     } else {
-        return R{detail::rounded(x.vector())};
+        return R::rounded(x);
     }
 }
 template <Real R>

@@ -2,11 +2,21 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
+#include <type_traits>
 
 namespace lumis {
 
 // long double is refused: lattices of uniforms, polynomials and tolerances are those of 24 and of 53 bits.
 template <class T>
 concept FloatOrDouble = std::same_as<T, float> || std::same_as<T, double>;
+
+namespace detail {
+
+// The signed integer of T's size.
+template <class T>
+using BitsOf = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+
+}  // namespace detail
 
 }  // namespace lumis
