@@ -23,7 +23,7 @@
 #define LUMIS_HD
 #endif
 
-#if defined(__GNUC__)
+#if defined(__GNUC__) || defined(__clang__)
 #define LUMIS_INLINE [[gnu::always_inline]] LUMIS_HD
 #define LUMIS_NOINLINE [[gnu::noinline]] LUMIS_HD
 #define LUMIS_COLD [[gnu::noinline, gnu::cold]] LUMIS_HD
@@ -43,8 +43,9 @@
 #define LUMIS_HAS_BUILTIN(name) 0
 #endif
 
-// The vector extensions of g++ and clang++. nvcc's device code has none, and a type must not change between its two passes.
-#if defined(__GNUC__) && !defined(__CUDACC__) && !defined(LUMIS_NO_VECTORS)
+// The vector extensions of g++ and clang++ (clang-cl too, which is no __GNUC__). nvcc's device code has none, and a type must
+// not change between its two passes.
+#if (defined(__GNUC__) || defined(__clang__)) && !defined(__CUDACC__) && !defined(LUMIS_NO_VECTORS)
 #define LUMIS_HAS_VECTORS
 #define LUMIS_VECTOR(bytes) [[gnu::vector_size(bytes)]]
 #endif
@@ -66,4 +67,82 @@
 
 #if defined(__cpp_exceptions) || defined(_CPPUNWIND)
 #define LUMIS_HAS_EXCEPTIONS
+#endif
+
+// LUMIS_ISA is put together from what tells apart the code that a compiler makes of one source: instructions that not every
+// processor has, and flags that change what is computed. A host may name it itself.
+#ifndef LUMIS_ISA
+
+#if defined(__AVX512VBMI__) || defined(__AVX512IFMA__)
+#define LUMIS_ISA_VECTORS avx512vbmi
+#elif defined(__AVX512VL__) && defined(__AVX512DQ__) && defined(__AVX512BW__)
+#define LUMIS_ISA_VECTORS avx512
+#elif defined(__AVX512F__)
+#define LUMIS_ISA_VECTORS avx512f
+#elif defined(__AVX2__)
+#define LUMIS_ISA_VECTORS avx2
+#elif defined(__AVX__)
+#define LUMIS_ISA_VECTORS avx
+#elif defined(__SSE4_2__)
+#define LUMIS_ISA_VECTORS sse42
+#elif defined(__SSE4_1__)
+#define LUMIS_ISA_VECTORS sse41
+#elif defined(__SSE3__)
+#define LUMIS_ISA_VECTORS sse3
+#elif defined(__SSE2__) || defined(_M_X64)
+#define LUMIS_ISA_VECTORS sse2
+#elif defined(__ARM_FEATURE_SVE2)
+#define LUMIS_ISA_VECTORS sve2
+#elif defined(__ARM_FEATURE_SVE)
+#define LUMIS_ISA_VECTORS sve
+#elif defined(__ARM_NEON) || defined(_M_ARM64)
+#define LUMIS_ISA_VECTORS neon
+#elif defined(__wasm_relaxed_simd__)
+#define LUMIS_ISA_VECTORS relaxed_simd
+#elif defined(__wasm_simd128__)
+#define LUMIS_ISA_VECTORS simd128
+#elif defined(__VSX__)
+#define LUMIS_ISA_VECTORS vsx
+#elif defined(__riscv_vector)
+#define LUMIS_ISA_VECTORS rvv
+#else
+#define LUMIS_ISA_VECTORS plain
+#endif
+
+#if defined(__FMA4__)
+#define LUMIS_ISA_SUMS _fma4
+#elif defined(__FMA__) || defined(__ARM_FEATURE_FMA)
+#define LUMIS_ISA_SUMS _fma
+#else
+#define LUMIS_ISA_SUMS
+#endif
+
+#if defined(__BMI__) || defined(__BMI2__) || defined(__LZCNT__)
+#define LUMIS_ISA_BITS _bmi
+#elif defined(__POPCNT__)
+#define LUMIS_ISA_BITS _popcnt
+#else
+#define LUMIS_ISA_BITS
+#endif
+
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#define LUMIS_ISA_MATHS _fast
+#else
+#define LUMIS_ISA_MATHS
+#endif
+
+#ifdef LUMIS_NO_VECTORS
+#define LUMIS_ISA_LANES _numbers
+#else
+#define LUMIS_ISA_LANES
+#endif
+
+#if defined(__CUDACC__)
+#define LUMIS_ISA cuda
+#else
+#define LUMIS_JOIN_EXPANDED(a, b, c, d, e) a##b##c##d##e
+#define LUMIS_JOIN(a, b, c, d, e) LUMIS_JOIN_EXPANDED(a, b, c, d, e)
+#define LUMIS_ISA LUMIS_JOIN(LUMIS_ISA_VECTORS, LUMIS_ISA_SUMS, LUMIS_ISA_BITS, LUMIS_ISA_MATHS, LUMIS_ISA_LANES)
+#endif
+
 #endif

@@ -51,15 +51,15 @@ struct ScalarOf<R> {
 template <class V>
 [[nodiscard]] LUMIS_INLINE constexpr V opaque(V x) noexcept {
     if (!std::is_constant_evaluated()) {
-#if defined(__CUDA_ARCH__)
-        // The device traps nothing.
-#elif defined(__GNUC__) && defined(__AVX512F__)
+#if defined(__CUDA_ARCH__) || !(defined(__GNUC__) || defined(__clang__))
+        // The device traps nothing; MSVC has no such statement.
+#elif defined(__AVX512F__)
         asm("" : "+v"(x));
-#elif defined(__GNUC__) && defined(__SSE2__)
+#elif defined(__SSE2__)
         asm("" : "+x"(x));
-#elif defined(__GNUC__) && defined(__aarch64__)
+#elif defined(__aarch64__)
         asm("" : "+w"(x));
-#elif defined(__GNUC__)
+#else
         asm("" : "+m"(x));
 #endif
     }
