@@ -20,11 +20,13 @@ namespace lumis {
 
 namespace detail {
 
-// c[0] + c[1] x + c[2] x^2 + ... by Horner's rule.
-template <Real R, std::size_t N>
-[[nodiscard]] LUMIS_INLINE constexpr R polynomial(R x, const std::array<scalar_of<R>, N>& c) noexcept {
-    R sum = c[N - 1];
-    for (std::size_t i = N - 1; i > 0; --i) sum = real::mul_add(sum, x, c[i - 1]);
+// c[0] + c[1] x + c[2] x^2 + ... by Horner's rule, where coefficients() yields c: CUDA devices have no static arrays of the
+// host to refer to.
+template <Real R, class Coefficients>
+[[nodiscard]] LUMIS_INLINE constexpr R polynomial(R x, Coefficients coefficients) noexcept {
+    constexpr auto c = coefficients();
+    R sum = c[c.size() - 1];
+    for (std::size_t i = c.size() - 1; i > 0; --i) sum = real::mul_add(sum, x, c[i - 1]);
     return sum;
 }
 
@@ -83,7 +85,8 @@ template <Real R>
     const R square = turn * turn;
     // 1 - 16 turn^2, the cosine's zeros, as a product: neither factor cancels.
     const R zeros = real::rounded(1 - 4 * turn) * real::rounded(1 + 4 * turn);
-    return {zeros * detail::polynomial(square, P::cosine), turn * detail::polynomial(square, P::sine)};
+    return {zeros * detail::polynomial(square, [] { return P::cosine; }),
+            turn * detail::polynomial(square, [] { return P::sine; })};
 }
 
 // (cos, sin) of 2 pi turn, for a turn in [0, 1], within 1.75 epsilon of 1. No multiple of pi is rounded on the way: 2 pi
@@ -112,14 +115,14 @@ template <Real R>
     R octant;
     if constexpr (std::same_as<T, float>) {
         const R t = real::divide(lesser, greater);
-        octant = t * detail::polynomial(R(t * t), detail::Minimax<T>::arc_tangent);
+        octant = t * detail::polynomial(R(t * t), [] { return detail::Minimax<T>::arc_tangent; });
     } else {
         // Beyond tan(pi / 8), counted back from 1/8, by the arc tangent of (lesser - greater) / (lesser + greater): the argument
         // stays below tan(pi / 8), which takes half of the terms.
         const auto beyond = lesser > T(0.41421356237309505) * greater;
         const R t = real::divide(real::select(beyond, real::rounded(lesser - greater), lesser),
                                  real::select(beyond, real::rounded(lesser + greater), greater));
-        octant = real::mul_add(t, detail::polynomial(R(t * t), detail::Minimax<T>::arc_tangent),
+        octant = real::mul_add(t, detail::polynomial(R(t * t), [] { return detail::Minimax<T>::arc_tangent; }),
                                real::select(beyond, R(T(0.125)), 0));
     }
 
@@ -159,7 +162,7 @@ template <Real R>
     const auto beyond = ax > T(0.5);
     const R square = select(beyond, rounded(1 - ax) * T(0.5), ax * ax);
     const R sine = select(beyond, sqrt(square), ax);
-    const R angle = sine * detail::polynomial(square, detail::Minimax<T>::arc_sine);
+    const R angle = sine * detail::polynomial(square, [] { return detail::Minimax<T>::arc_sine; });
     const R start = select(beyond, select(x < 0, R(std::numbers::pi_v<T>), 0), std::numbers::pi_v<T> / 2);
     return start + copysign(select(beyond, 2 * angle, angle), select(beyond, x, -x));
 }
