@@ -13,7 +13,7 @@
 
 namespace {
 
-template <class T, template <class> class Rows = lumis::detail::GuidedRows>
+template <class T, template <class, template <class> class> class Rows = lumis::detail::GuidedRows>
 lumis::detail::CountGrid<T, Rows> grid_of(std::size_t width, const std::vector<double>& weights,
                                           const std::vector<double>& scales = {}) {
     lumis::detail::CountGrid<T, Rows> grid{width, weights.size() / width, weights.size()};

@@ -20,13 +20,7 @@ using AllRows = std::tuple<lumis::detail::GuidedRows<float>, lumis::detail::Guid
                            lumis::detail::AliasRows<float>, lumis::detail::AliasRows<double>>;
 
 template <class Rows>
-struct ScalarOfRows;
-template <template <class> class Rows, class T>
-struct ScalarOfRows<Rows<T>> {
-    using type = T;
-};
-template <class Rows>
-using Scalar = typename ScalarOfRows<Rows>::type;
+using Scalar = typename Rows::Scalar;
 
 // Weights that make a search long: thousands of entries in one run of the guide, at either end and in the middle, among
 // entries of weight 0; more entries than a guide of 16 bits can tell apart; and sizes that divide the counts unevenly.

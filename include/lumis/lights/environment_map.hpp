@@ -12,6 +12,7 @@
 #include "lumis/core/real.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/tables/detail/alias_rows.hpp"
+#include "lumis/tables/detail/arrays.hpp"
 #include "lumis/tables/detail/count_grid.hpp"
 #include "lumis/tables/detail/cumulative_counts.hpp"
 #include "lumis/tables/detail/guided_rows.hpp"
@@ -45,41 +46,34 @@ struct EnvironmentOptions {
     bool mis_compensation = false;
 };
 
-// What EnvironmentMap and AliasEnvironmentMap share: Rows is the kind of table within a row.
-template <std::floating_point T, template <class> class Rows>
+namespace detail {
+
+// What a map keeps of each row. Heights are versines, 1 - |cos(theta)| from the nearer pole: there 1 - cos of a 4K map's
+// first row is but five units in the last place of 1 in float.
+template <std::floating_point T>
+struct MapRow {
+    T versine;           // at the edge towards the nearer pole
+    T extent;            // to the other edge
+    T from_bottom;       // 1 if the nearer pole is -y; else 0
+    T density_of_count;  // density of a texel with a single count; 0 if nothing is drawn
+};
+
+}  // namespace detail
+
+// What environment maps and their views share. Rows is the kind of table within a row; for Array, see arrays.hpp.
+template <std::floating_point T, template <class, template <class> class> class Rows, template <class> class Array>
 class BasicEnvironmentMap {
+    using Row = detail::MapRow<T>;
+
   public:
     using Scalar = T;
     using Point = Direction<T>;
     using Measure = measure::SolidAngle;
     static constexpr int dimensions = 2;
 
-    // luminance: width x height values, row by row from +y. Throws std::invalid_argument for a size of 0, a size that
-    // does not match, and a texel that is NaN, infinite or negative. All-zero luminance is legal, see empty().
-    // for_each_row: the host's own way to run the rows, on threads perhaps, see detail::InOrder.
-    // Keeps 6 bytes a texel with GuidedRows, 8 with AliasRows, and 28 more a row.
-    template <class ForEachRow = detail::InOrder>
-    LUMIS_HD BasicEnvironmentMap(std::integral auto width, std::integral auto height, std::span<const T> luminance,
-                                 EnvironmentOptions options = {}, const ForEachRow& for_each_row = {})
-        : grid_{width, height, luminance.size()} {
-        detail::require_weights(luminance, this->width(), for_each_row);
-        const auto weights_of = [&](std::size_t y, std::span<double> weights) {
-            mean_luminance(luminance, y, options.interpolation, weights);
-        };
-        const double excess = options.mis_compensation ? compensation(weights_of, for_each_row) : 0.0;
-        const auto compensated = [&](std::size_t y, std::span<double> weights) {
-            weights_of(y, weights);
-            for (double& weight : weights) weight = real::greater(weight - excess, 0.0);
-        };
-        grid_.deal(
-            compensated, [&](std::size_t y) { return row_extent(y); }, for_each_row);
-        rows_.reserve(this->height());
-        for (std::size_t y = 0; y < this->height(); ++y) rows_.push_back(row(y));
-    }
-
     [[nodiscard]] LUMIS_HD std::size_t width() const noexcept { return grid_.width(); }
     [[nodiscard]] LUMIS_HD std::size_t height() const noexcept { return grid_.height(); }
-    [[nodiscard]] LUMIS_HD std::size_t memory_bytes() const noexcept {
+    [[nodiscard]] std::size_t memory_bytes() const noexcept requires detail::Owns<Array> {
         return grid_.memory_bytes() + rows_.size() * sizeof(Row);
     }
 
@@ -150,7 +144,7 @@ class BasicEnvironmentMap {
     }
 
     [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& w) const noexcept requires
-        requires(const detail::CountGrid<T, Rows>& grid) {
+        requires(const detail::CountGrid<T, Rows, Array>& grid) {
         grid.invert({});
     }
     {
@@ -162,23 +156,40 @@ class BasicEnvironmentMap {
         return grid_.invert(texel);
     }
 
+  protected:
+    template <class Luminance>
+    BasicEnvironmentMap(std::integral auto width, std::integral auto height, std::span<const Luminance> luminance,
+                        EnvironmentOptions options, const auto& for_each_row)
+        : grid_{width, height, luminance.size()} {
+        detail::require_weights(luminance, this->width(), for_each_row);
+        const auto weights_of = [&](std::size_t y, std::span<double> weights) {
+            mean_luminance(luminance, y, options.interpolation, weights);
+        };
+        const double excess = options.mis_compensation ? compensation(weights_of, for_each_row) : 0.0;
+        const auto compensated = [&](std::size_t y, std::span<double> weights) {
+            weights_of(y, weights);
+            for (double& weight : weights) weight = real::greater(weight - excess, 0.0);
+        };
+        grid_.deal(
+            compensated, [&](std::size_t y) { return row_extent(y); }, for_each_row);
+        rows_.reserve(this->height());
+        for (std::size_t y = 0; y < this->height(); ++y) rows_.push_back(row(y));
+    }
+
+    BasicEnvironmentMap(const BasicEnvironmentMap<T, Rows, detail::Owned>& owner, auto& place)
+        : grid_{owner.grid_, place}, rows_{detail::viewed(owner.rows_, place)}, turn_of_texel_{owner.turn_of_texel_} {}
+
   private:
-    // Heights are versines, 1 - |cos(theta)| from the nearer pole: there 1 - cos of a 4K map's first row is but five
-    // units in the last place of 1 in float.
-    struct Row {
-        T versine;           // at the edge towards the nearer pole
-        T extent;            // to the other edge
-        T from_bottom;       // 1 if the nearer pole is -y; else 0
-        T density_of_count;  // density of a texel with a single count; 0 if nothing is drawn
-    };
+    template <std::floating_point, template <class, template <class> class> class, template <class> class>
+    friend class BasicEnvironmentMap;
 
     // cos(theta) at a row's upper edge less that at its lower one; the difference itself would cancel.
-    [[nodiscard]] LUMIS_HD double row_extent(std::size_t y) const noexcept {
+    [[nodiscard]] double row_extent(std::size_t y) const noexcept {
         const double half_row = std::numbers::pi / 2 / static_cast<double>(height());
         return 2 * std::sin(half_row * static_cast<double>(2 * y + 1)) * std::sin(half_row);
     }
 
-    [[nodiscard]] LUMIS_HD Row row(std::size_t y) const noexcept {
+    [[nodiscard]] Row row(std::size_t y) const noexcept {
         const bool from_top = 2 * y < height();
         const std::size_t rows_to_pole = from_top ? y : height() - 1 - y;
         const double sine =
@@ -190,7 +201,7 @@ class BasicEnvironmentMap {
     }
 
     // What MIS compensation takes off every texel: the mean over the sphere; nothing where no texel stands out of it.
-    [[nodiscard]] LUMIS_HD double compensation(const auto& weights_of, const auto& for_each_row) const {
+    [[nodiscard]] double compensation(const auto& weights_of, const auto& for_each_row) const {
         std::vector<double> sums(height()), largest(height());
         for_each_row(height(), [&](std::size_t y) {
             std::vector<double> weights(width());
@@ -207,40 +218,94 @@ class BasicEnvironmentMap {
     // Sets means[x] to the mean of the interpolated luminance over texel x of row y. A bilinear function's mean over a cell
     // weighs the cell's own value by 3/4 and its two neighbours by 1/8 in either direction: it is 0 only where the function
     // is.
-    LUMIS_HD void mean_luminance(std::span<const T> luminance, std::size_t y, Interpolation interpolation,
-                                 std::span<double> means) const noexcept {
+    void mean_luminance(auto luminance, std::size_t y, Interpolation interpolation,
+                        std::span<double> means) const noexcept {
         const std::size_t n = width();
         const auto texels = [&](std::size_t row) { return luminance.subspan(row * n, n); };
         if (interpolation == Interpolation::Nearest) {
-            for (std::size_t x = 0; x < n; ++x) means[x] = texels(y)[x];
+            for (std::size_t x = 0; x < n; ++x) means[x] = static_cast<double>(texels(y)[x]);
             return;
         }
         const auto above = texels(y > 0 ? y - 1 : 0), here = texels(y), below = texels(y + 1 < height() ? y + 1 : y);
         const auto down = [&](std::size_t x) {
-            return 0.125 * double{above[x]} + 0.75 * double{here[x]} + 0.125 * double{below[x]};
+            return 0.125 * static_cast<double>(above[x]) + 0.75 * static_cast<double>(here[x]) +
+                   0.125 * static_cast<double>(below[x]);
         };
         for (std::size_t x = 0; x < n; ++x) {
             means[x] = 0.125 * down(x > 0 ? x - 1 : n - 1) + 0.75 * down(x) + 0.125 * down(x + 1 < n ? x + 1 : 0);
         }
     }
 
-    detail::CountGrid<T, Rows> grid_;
-    std::vector<Row> rows_;
+    detail::CountGrid<T, Rows, Array> grid_;
+    Array<Row> rows_;
     T turn_of_texel_ = 1 / static_cast<T>(width());
+};
+
+template <std::floating_point T>
+class EnvironmentMap;
+template <std::floating_point T>
+class AliasEnvironmentMap;
+
+// A map's way to draw, without its memory: made by EnvironmentMap::view, trivially copyable.
+template <std::floating_point T = float>
+class EnvironmentMapView : public BasicEnvironmentMap<T, detail::GuidedRows, detail::Viewed> {
+    friend class EnvironmentMap<T>;
+    using BasicEnvironmentMap<T, detail::GuidedRows, detail::Viewed>::BasicEnvironmentMap;
+};
+template <std::floating_point T = float>
+class AliasEnvironmentMapView : public BasicEnvironmentMap<T, detail::AliasRows, detail::Viewed> {
+    friend class AliasEnvironmentMap<T>;
+    using BasicEnvironmentMap<T, detail::AliasRows, detail::Viewed>::BasicEnvironmentMap;
 };
 
 // Monotone in u.x, so that stratified uniforms stay stratified, and invertible: the one to take unless measured otherwise.
 template <std::floating_point T = float>
-class EnvironmentMap : public BasicEnvironmentMap<T, detail::GuidedRows> {
+class EnvironmentMap : public BasicEnvironmentMap<T, detail::GuidedRows, detail::Owned> {
+    using Base = BasicEnvironmentMap<T, detail::GuidedRows, detail::Owned>;
+
   public:
-    using BasicEnvironmentMap<T, detail::GuidedRows>::BasicEnvironmentMap;
+    // luminance: width x height values, row by row from +y. Throws std::invalid_argument for a size of 0, a size that
+    // does not match, and a texel that is NaN, infinite or negative. All-zero luminance is legal, see empty().
+    // for_each_row: the host's own way to run the rows, on threads perhaps, see detail::InOrder.
+    // Keeps 6 bytes a texel, and 28 more a row.
+    template <class ForEachRow = detail::InOrder>
+    EnvironmentMap(std::integral auto width, std::integral auto height, std::span<const T> luminance,
+                   EnvironmentOptions options = {}, const ForEachRow& for_each_row = {})
+        : Base{width, height, luminance, options, for_each_row} {}
+
+    // Luminance of another type counts as it is.
+    template <detail::RangeOfOther<T> R, class ForEachRow = detail::InOrder>
+    EnvironmentMap(std::integral auto width, std::integral auto height, const R& luminance,
+                   EnvironmentOptions options = {}, const ForEachRow& for_each_row = {})
+        : Base{width, height, detail::span_of(luminance), options, for_each_row} {}
+
+    // Views of the map, and of a copy that place makes of its arrays, see alias_table.hpp.
+    [[nodiscard]] EnvironmentMapView<T> view() const noexcept LUMIS_LIFETIME_BOUND { return view(detail::InPlace{}); }
+    [[nodiscard]] EnvironmentMapView<T> view(auto&& place) const { return EnvironmentMapView<T>{*this, place}; }
 };
 
 // Draws and evaluates a little faster in large maps, but scatters neighbouring u.x over the row and has no inverse.
 template <std::floating_point T = float>
-class AliasEnvironmentMap : public BasicEnvironmentMap<T, detail::AliasRows> {
+class AliasEnvironmentMap : public BasicEnvironmentMap<T, detail::AliasRows, detail::Owned> {
+    using Base = BasicEnvironmentMap<T, detail::AliasRows, detail::Owned>;
+
   public:
-    using BasicEnvironmentMap<T, detail::AliasRows>::BasicEnvironmentMap;
+    // As EnvironmentMap's. Keeps 8 bytes a texel, and 28 more a row.
+    template <class ForEachRow = detail::InOrder>
+    AliasEnvironmentMap(std::integral auto width, std::integral auto height, std::span<const T> luminance,
+                        EnvironmentOptions options = {}, const ForEachRow& for_each_row = {})
+        : Base{width, height, luminance, options, for_each_row} {}
+    template <detail::RangeOfOther<T> R, class ForEachRow = detail::InOrder>
+    AliasEnvironmentMap(std::integral auto width, std::integral auto height, const R& luminance,
+                        EnvironmentOptions options = {}, const ForEachRow& for_each_row = {})
+        : Base{width, height, detail::span_of(luminance), options, for_each_row} {}
+
+    [[nodiscard]] AliasEnvironmentMapView<T> view() const noexcept LUMIS_LIFETIME_BOUND {
+        return view(detail::InPlace{});
+    }
+    [[nodiscard]] AliasEnvironmentMapView<T> view(auto&& place) const {
+        return AliasEnvironmentMapView<T>{*this, place};
+    }
 };
 
 template <std::integral W, std::integral H, detail::Spannable R, class ForEachRow = detail::InOrder>

@@ -1,40 +1,36 @@
 // Indices in proportion to weights, in constant time whatever their number. Counting measure: the density is a probability.
 // Walker 1977 in fixed point (see alias_rows.hpp): the reported probability is the one drawn, exactly, and the
 // probabilities sum to 1.
+//
+// A table owns its memory. A view of it is small and draws the same: view() refers to the table, which must live as long;
+// view(place) refers to a copy, in a GPU's memory for instance. place(array) is called with the table's array, a std::span
+// of constant elements that are trivially copyable, and returns a std::span of its copy.
 #pragma once
 
 #include "lumis/core/detail/spannable.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/tables/detail/alias_rows.hpp"
+#include "lumis/tables/detail/arrays.hpp"
 #include "lumis/tables/detail/cumulative_counts.hpp"
 
 #include <concepts>
 #include <cstddef>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 namespace lumis {
 
-template <std::floating_point T = float>
-class AliasTable {
+namespace detail {
+
+// What AliasTable and AliasTableView share. Array: see arrays.hpp.
+template <std::floating_point T, template <class> class Array>
+class BasicAliasTable {
   public:
     using Scalar = T;
     using Point = std::size_t;
     using Measure = measure::Counting;
     static constexpr int dimensions = 1;
-
-    // Throws std::invalid_argument for no weights, for one that is NaN, infinite or negative, and where the counts (2^24 in
-    // float, 2^31 in double) are too few: for more weights than counts, and if those that are less than a count's worth
-    // would take more than a quarter of the draws beyond their share (see require_enough_counts, and FineAliasTable).
-    // All-zero weights are legal, see empty(). Keeps 8 bytes a weight.
-    LUMIS_HD explicit AliasTable(std::span<const T> weights) : table_{detail::checked_size<T>(weights.size()), 1} {
-        detail::require_weights(weights);
-        const detail::Dealt dealt = table_.deal(0, std::vector<double>(weights.begin(), weights.end()));
-        detail::require_enough_counts<T>(dealt);
-        probability_of_count_ = dealt.value > 0 ? 1 / static_cast<T>(detail::total_counts<T>) : T(0);
-    }
 
     [[nodiscard]] LUMIS_HD std::size_t size() const noexcept { return table_.entries(); }
 
@@ -51,27 +47,68 @@ class AliasTable {
         return index < size() ? static_cast<T>(table_.counts(0, index)) * probability_of_count_ : T(0);
     }
 
+  protected:
+    template <class Weight>
+    explicit BasicAliasTable(std::span<const Weight> weights) : table_{checked_size<T>(weights.size()), 1} {
+        const Dealt dealt = deal_checked<T>(table_, weights);
+        probability_of_count_ = dealt.value > 0 ? 1 / static_cast<T>(total_counts<T>) : T(0);
+    }
+
+    BasicAliasTable(const BasicAliasTable<T, Owned>& owner, auto& place)
+        : table_{owner.table_, place}, probability_of_count_{owner.probability_of_count_} {}
+
   private:
-    detail::AliasRows<T> table_;
+    template <std::floating_point, template <class> class>
+    friend class BasicAliasTable;
+
+    AliasRows<T, Array> table_;
     T probability_of_count_;  // 0 if nothing is drawn
+};
+
+}  // namespace detail
+
+template <std::floating_point T>
+class AliasTable;
+
+// An AliasTable's way to draw, without its memory: made by AliasTable::view, trivially copyable.
+template <std::floating_point T = float>
+class AliasTableView : public detail::BasicAliasTable<T, detail::Viewed> {
+    friend class AliasTable<T>;
+    using detail::BasicAliasTable<T, detail::Viewed>::BasicAliasTable;
+};
+
+template <std::floating_point T = float>
+class AliasTable : public detail::BasicAliasTable<T, detail::Owned> {
+    using Base = detail::BasicAliasTable<T, detail::Owned>;
+
+  public:
+    // Throws std::invalid_argument for no weights, for one that is NaN, infinite or negative, and where the counts (2^24 in
+    // float, 2^31 in double) are too few: for more weights than counts, and if those that are less than a count's worth
+    // would take more than a quarter of the draws beyond their share (see require_enough_counts, and FineAliasTable).
+    // All-zero weights are legal, see empty(). Keeps 8 bytes a weight.
+    explicit AliasTable(std::span<const T> weights) : Base{weights} {}
+
+    // Weights of another type, doubles for a table in float for instance, count as they are.
+    template <detail::RangeOfOther<T> R>
+    explicit AliasTable(const R& weights) : Base{detail::span_of(weights)} {}
+
+    [[nodiscard]] AliasTableView<T> view() const noexcept LUMIS_LIFETIME_BOUND { return view(detail::InPlace{}); }
+    [[nodiscard]] AliasTableView<T> view(auto&& place) const { return AliasTableView<T>{*this, place}; }
 };
 
 template <detail::Spannable R>
 AliasTable(const R&) -> AliasTable<detail::ElementOf<R>>;
 
-// An AliasTable<float> with the 2^31 counts of one in double, for weights that 2^24 do not tell apart: more than four million
-// lights of very unequal powers, say. It spends two uniforms: the second refines the first. Probabilities are those drawn,
-// rounded to float.
-class FineAliasTable {
+namespace detail {
+
+// What FineAliasTable and FineAliasTableView share. Table: an alias table in double.
+template <class Table>
+class BasicFineAliasTable {
   public:
     using Scalar = float;
     using Point = std::size_t;
     using Measure = measure::Counting;
     static constexpr int dimensions = 2;
-
-    // Throws as AliasTable<double> does. Keeps 8 bytes a weight.
-    LUMIS_HD explicit FineAliasTable(std::span<const float> weights)
-        : table_{std::vector<double>(weights.begin(), weights.end())} {}
 
     [[nodiscard]] LUMIS_HD std::size_t size() const noexcept { return table_.size(); }
 
@@ -88,8 +125,34 @@ class FineAliasTable {
 
     [[nodiscard]] LUMIS_HD float pdf(Point index) const noexcept { return static_cast<float>(table_.pdf(index)); }
 
-  private:
-    AliasTable<double> table_;
+  protected:
+    explicit BasicFineAliasTable(const auto& table) : table_{table} {}
+
+    Table table_;
+};
+
+}  // namespace detail
+
+// A FineAliasTable's way to draw, without its memory: made by FineAliasTable::view, trivially copyable.
+class FineAliasTableView : public detail::BasicFineAliasTable<AliasTableView<double>> {
+    friend class FineAliasTable;
+    using detail::BasicFineAliasTable<AliasTableView<double>>::BasicFineAliasTable;
+};
+
+// An AliasTable<float> with the 2^31 counts of one in double, for weights that 2^24 do not tell apart: more than four million
+// lights of very unequal powers, say. It spends two uniforms: the second refines the first. Probabilities are those drawn,
+// rounded to float.
+class FineAliasTable : public detail::BasicFineAliasTable<AliasTable<double>> {
+    using Base = detail::BasicFineAliasTable<AliasTable<double>>;
+
+  public:
+    // Throws as AliasTable<double> does. Keeps 8 bytes a weight.
+    explicit FineAliasTable(std::span<const float> weights) : Base{weights} {}
+    template <detail::RangeOfOther<float> R>
+    explicit FineAliasTable(const R& weights) : Base{detail::span_of(weights)} {}
+
+    [[nodiscard]] FineAliasTableView view() const noexcept LUMIS_LIFETIME_BOUND { return view(detail::InPlace{}); }
+    [[nodiscard]] FineAliasTableView view(auto&& place) const { return FineAliasTableView{table_.view(place)}; }
 };
 
 }  // namespace lumis

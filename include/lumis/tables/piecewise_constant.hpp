@@ -1,10 +1,12 @@
 // Points of [0,1] and [0,1]^2 with a density that is constant in each of equally large cells, in proportion to weights.
-// Lebesgue measure. In fixed point (see cumulative_counts.hpp): the density is the frequency really drawn.
+// Lebesgue measure. In fixed point (see cumulative_counts.hpp): the density is the frequency really drawn. Tables own their
+// memory; for their views see alias_table.hpp.
 #pragma once
 
 #include "lumis/core/detail/spannable.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
+#include "lumis/tables/detail/arrays.hpp"
 #include "lumis/tables/detail/count_grid.hpp"
 #include "lumis/tables/detail/cumulative_counts.hpp"
 #include "lumis/tables/detail/guided_rows.hpp"
@@ -14,28 +16,19 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 namespace lumis {
 
-template <std::floating_point T = float>
-class PiecewiseConstant1D {
+namespace detail {
+
+// What PiecewiseConstant1D and its view share. Array: see arrays.hpp.
+template <std::floating_point T, template <class> class Array>
+class BasicPiecewiseConstant1D {
   public:
     using Scalar = T;
     using Point = T;
     using Measure = measure::Lebesgue;
     static constexpr int dimensions = 1;
-
-    // Throws std::invalid_argument for no weights, for one that is NaN, infinite or negative, and for more than there are
-    // counts (2^24 in float), or too many dim ones (see require_enough_counts). All-zero weights are legal, see empty().
-    // Keeps 6 bytes a weight.
-    LUMIS_HD explicit PiecewiseConstant1D(std::span<const T> weights)
-        : table_{detail::checked_size<T>(weights.size()), 1} {
-        detail::require_weights(weights);
-        const detail::Dealt dealt = table_.deal(0, std::vector<double>(weights.begin(), weights.end()));
-        detail::require_enough_counts<T>(dealt);
-        density_of_count_ = dealt.value > 0 ? static_cast<T>(size()) / static_cast<T>(detail::total_counts<T>) : T(0);
-    }
 
     [[nodiscard]] LUMIS_HD std::size_t size() const noexcept { return table_.entries(); }
 
@@ -45,50 +38,50 @@ class PiecewiseConstant1D {
     // A cell of weight 0 is never drawn.
     [[nodiscard]] LUMIS_HD Sample<Point, T> sample(glm::vec<1, T> u) const noexcept {
         const auto drawn = table_.draw(0, u.x);
-        const T x = real::divide(static_cast<T>(drawn.index) + detail::clear_of_edges(drawn.position, size()),
-                                 static_cast<T>(size()));
+        const T x =
+            real::divide(static_cast<T>(drawn.index) + clear_of_edges(drawn.position, size()), static_cast<T>(size()));
         return {x, density(drawn.counts)};
     }
 
     [[nodiscard]] LUMIS_HD T pdf(Point x) const noexcept {
-        return x >= 0 && x <= 1 ? density(table_.counts(0, detail::index_of(x, size()))) : T(0);
+        return x >= 0 && x <= 1 ? density(table_.counts(0, index_of(x, size()))) : T(0);
     }
 
     [[nodiscard]] LUMIS_HD glm::vec<1, T> invert(Point x) const noexcept {
-        const std::size_t index = detail::index_of(x, size());
+        const std::size_t index = index_of(x, size());
         return glm::vec<1, T>{table_.uniform_of(0, index, x * static_cast<T>(size()) - static_cast<T>(index))};
     }
 
+  protected:
+    template <class Weight>
+    explicit BasicPiecewiseConstant1D(std::span<const Weight> weights) : table_{checked_size<T>(weights.size()), 1} {
+        const Dealt dealt = deal_checked<T>(table_, weights);
+        density_of_count_ = dealt.value > 0 ? static_cast<T>(size()) / static_cast<T>(total_counts<T>) : T(0);
+    }
+
+    BasicPiecewiseConstant1D(const BasicPiecewiseConstant1D<T, Owned>& owner, auto& place)
+        : table_{owner.table_, place}, density_of_count_{owner.density_of_count_} {}
+
   private:
+    template <std::floating_point, template <class> class>
+    friend class BasicPiecewiseConstant1D;
+
     [[nodiscard]] LUMIS_HD T density(std::uint32_t counts) const noexcept {
         return static_cast<T>(counts) * density_of_count_;
     }
 
-    detail::GuidedRows<T> table_;
+    GuidedRows<T, Array> table_;
     T density_of_count_;  // 0 if nothing is drawn
 };
 
-template <std::floating_point T = float>
-class PiecewiseConstant2D {
+// What PiecewiseConstant2D and its view share.
+template <std::floating_point T, template <class> class Array>
+class BasicPiecewiseConstant2D {
   public:
     using Scalar = T;
     using Point = glm::vec<2, T>;
     using Measure = measure::Lebesgue;
     static constexpr int dimensions = 2;
-
-    // weights: width x height values, row by row. Throws as PiecewiseConstant1D does, and for a size that does not match.
-    // for_each_row: see detail::InOrder. Keeps 6 bytes a weight, and 12 more a row.
-    template <class ForEachRow = detail::InOrder>
-    LUMIS_HD PiecewiseConstant2D(std::integral auto width, std::integral auto height, std::span<const T> weights,
-                                 const ForEachRow& for_each_row = {})
-        : grid_{width, height, weights.size()} {
-        detail::require_weights(weights, this->width(), for_each_row);
-        const auto weights_of = [&](std::size_t y, std::span<double> row) {
-            for (std::size_t x = 0; x < row.size(); ++x) row[x] = weights[y * row.size() + x];
-        };
-        grid_.deal(
-            weights_of, [](std::size_t) { return 1.0; }, for_each_row);
-    }
 
     [[nodiscard]] LUMIS_HD std::size_t width() const noexcept { return grid_.width(); }
     [[nodiscard]] LUMIS_HD std::size_t height() const noexcept { return grid_.height(); }
@@ -115,14 +108,96 @@ class PiecewiseConstant2D {
         return grid_.invert(grid_.locate(x));
     }
 
+  protected:
+    template <class Weight>
+    BasicPiecewiseConstant2D(std::integral auto width, std::integral auto height, std::span<const Weight> weights,
+                             const auto& for_each_row)
+        : grid_{width, height, weights.size()} {
+        require_weights(weights, this->width(), for_each_row);
+        const auto weights_of = [&](std::size_t y, std::span<double> row) {
+            for (std::size_t x = 0; x < row.size(); ++x) row[x] = static_cast<double>(weights[y * row.size() + x]);
+        };
+        grid_.deal(
+            weights_of, [](std::size_t) { return 1.0; }, for_each_row);
+    }
+
+    BasicPiecewiseConstant2D(const BasicPiecewiseConstant2D<T, Owned>& owner, auto& place)
+        : grid_{owner.grid_, place} {}
+
   private:
+    template <std::floating_point, template <class> class>
+    friend class BasicPiecewiseConstant2D;
+
     [[nodiscard]] LUMIS_HD T density(std::size_t row, std::uint32_t counts) const noexcept {
-        constexpr T all = static_cast<T>(detail::total_counts<T>);
+        constexpr T all = static_cast<T>(total_counts<T>);
         return (static_cast<T>(grid_.row_counts(row)) / all * static_cast<T>(height())) *
                (static_cast<T>(counts) / all * static_cast<T>(width()));
     }
 
-    detail::CountGrid<T> grid_;
+    CountGrid<T, GuidedRows, Array> grid_;
+};
+
+}  // namespace detail
+
+template <std::floating_point T>
+class PiecewiseConstant1D;
+template <std::floating_point T>
+class PiecewiseConstant2D;
+
+template <std::floating_point T = float>
+class PiecewiseConstant1DView : public detail::BasicPiecewiseConstant1D<T, detail::Viewed> {
+    friend class PiecewiseConstant1D<T>;
+    using detail::BasicPiecewiseConstant1D<T, detail::Viewed>::BasicPiecewiseConstant1D;
+};
+
+template <std::floating_point T = float>
+class PiecewiseConstant2DView : public detail::BasicPiecewiseConstant2D<T, detail::Viewed> {
+    friend class PiecewiseConstant2D<T>;
+    using detail::BasicPiecewiseConstant2D<T, detail::Viewed>::BasicPiecewiseConstant2D;
+};
+
+template <std::floating_point T = float>
+class PiecewiseConstant1D : public detail::BasicPiecewiseConstant1D<T, detail::Owned> {
+    using Base = detail::BasicPiecewiseConstant1D<T, detail::Owned>;
+
+  public:
+    // Throws std::invalid_argument for no weights, for one that is NaN, infinite or negative, and for more than there are
+    // counts (2^24 in float), or too many dim ones (see require_enough_counts). All-zero weights are legal, see empty().
+    // Keeps 6 bytes a weight.
+    explicit PiecewiseConstant1D(std::span<const T> weights) : Base{weights} {}
+    template <detail::RangeOfOther<T> R>
+    explicit PiecewiseConstant1D(const R& weights) : Base{detail::span_of(weights)} {}
+
+    [[nodiscard]] PiecewiseConstant1DView<T> view() const noexcept LUMIS_LIFETIME_BOUND {
+        return view(detail::InPlace{});
+    }
+    [[nodiscard]] PiecewiseConstant1DView<T> view(auto&& place) const {
+        return PiecewiseConstant1DView<T>{*this, place};
+    }
+};
+
+template <std::floating_point T = float>
+class PiecewiseConstant2D : public detail::BasicPiecewiseConstant2D<T, detail::Owned> {
+    using Base = detail::BasicPiecewiseConstant2D<T, detail::Owned>;
+
+  public:
+    // weights: width x height values, row by row. Throws as PiecewiseConstant1D does, and for a size that does not match.
+    // for_each_row: see detail::InOrder. Keeps 6 bytes a weight, and 12 more a row.
+    template <class ForEachRow = detail::InOrder>
+    PiecewiseConstant2D(std::integral auto width, std::integral auto height, std::span<const T> weights,
+                        const ForEachRow& for_each_row = {})
+        : Base{width, height, weights, for_each_row} {}
+    template <detail::RangeOfOther<T> R, class ForEachRow = detail::InOrder>
+    PiecewiseConstant2D(std::integral auto width, std::integral auto height, const R& weights,
+                        const ForEachRow& for_each_row = {})
+        : Base{width, height, detail::span_of(weights), for_each_row} {}
+
+    [[nodiscard]] PiecewiseConstant2DView<T> view() const noexcept LUMIS_LIFETIME_BOUND {
+        return view(detail::InPlace{});
+    }
+    [[nodiscard]] PiecewiseConstant2DView<T> view(auto&& place) const {
+        return PiecewiseConstant2DView<T>{*this, place};
+    }
 };
 
 template <detail::Spannable R>

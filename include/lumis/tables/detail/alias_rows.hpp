@@ -15,6 +15,7 @@
 
 #include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
+#include "lumis/tables/detail/arrays.hpp"
 #include "lumis/tables/detail/cumulative_counts.hpp"
 
 #include <bit>
@@ -26,11 +27,28 @@
 
 namespace lumis::detail {
 
-template <class T>
+//     own_and_alias    | alias: the other bits | own counts: the low own_bits_ |
+//     heavy_and_kind   | light: bit 31 | counts of the heavy entry, less 1: bits 0 to 30 |
+// The heavy entry is the bin's own, or a light bin's alias.
+struct AliasBin {
+    AliasBin() noexcept {}
+    AliasBin(std::uint32_t own_and_alias_, std::uint32_t heavy, bool light) noexcept
+        : own_and_alias{own_and_alias_}, heavy_and_kind{(heavy - 1) | (light ? light_bit : 0)} {}
+
+    static constexpr std::uint32_t light_bit = std::uint32_t{1} << 31;
+    [[nodiscard]] LUMIS_HD bool is_light() const noexcept { return heavy_and_kind >= light_bit; }
+    [[nodiscard]] LUMIS_HD std::uint32_t heavy_counts() const noexcept { return (heavy_and_kind & ~light_bit) + 1; }
+
+    std::uint32_t own_and_alias, heavy_and_kind;
+};
+
+template <class T, template <class> class Array = Owned>
 class AliasRows {
   public:
+    using Scalar = T;
+
     // `rows` tables of `entries` weights. Keeps 8 bytes a weight.
-    LUMIS_HD AliasRows(std::size_t entries, std::size_t rows)
+    AliasRows(std::size_t entries, std::size_t rows)
         : entries_{entries},
           capacity_{static_cast<std::uint32_t>(total_counts<T> / entries)},
           larger_bins_{static_cast<std::uint32_t>(total_counts<T> % entries)},
@@ -39,11 +57,21 @@ class AliasRows {
           reciprocal_{((std::uint64_t{1} << division_shift_) + entries - 1) / entries},
           bins_(rows * entries) {}
 
+    // A view of the owner's arrays where place puts them, see viewed.
+    AliasRows(const AliasRows<T, Owned>& owner, auto& place)
+        : entries_{owner.entries_},
+          capacity_{owner.capacity_},
+          larger_bins_{owner.larger_bins_},
+          own_bits_{owner.own_bits_},
+          division_shift_{owner.division_shift_},
+          reciprocal_{owner.reciprocal_},
+          bins_{viewed(owner.bins_, place)} {}
+
     [[nodiscard]] LUMIS_HD std::size_t entries() const noexcept { return entries_; }
-    [[nodiscard]] LUMIS_HD std::size_t memory_bytes() const noexcept { return bins_.size() * sizeof(Bin); }
+    [[nodiscard]] std::size_t memory_bytes() const noexcept { return bins_.size() * sizeof(AliasBin); }
 
     // Sets one row; different rows may be dealt at the same time.
-    LUMIS_HD Dealt deal(std::size_t row, std::span<const double> weights) {
+    Dealt deal(std::size_t row, std::span<const double> weights) {
         std::vector<std::uint32_t> counts(entries_ + 1, total_counts<T>);
         const Dealt dealt = deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return counts[i]; });
         for (std::size_t i = 0; i < entries_; ++i) counts[i] = counts[i + 1] - counts[i];
@@ -62,8 +90,8 @@ class AliasRows {
         const auto place = static_cast<std::uint32_t>((remainder * reciprocal_) >> division_shift_);
 
         // 3. The entry: the bin's own, or its alias.
-        const Bin* const bins = bins_.data() + row * entries_;
-        const Bin bin = bins[index];
+        const AliasBin* const bins = bins_.data() + row * entries_;
+        const AliasBin bin = bins[index];
         const std::uint32_t own = bin.own_and_alias & own_mask();
         const std::size_t alias = bin.own_and_alias >> own_bits_;
         const bool is_own = place < own, light = bin.is_light();
@@ -79,30 +107,18 @@ class AliasRows {
 
     // The number of counts of an entry.
     [[nodiscard]] LUMIS_HD std::uint32_t counts(std::size_t row, std::size_t i) const noexcept {
-        const Bin bin = bins_[row * entries_ + i];
+        const AliasBin bin = bins_[row * entries_ + i];
         return bin.is_light() ? bin.own_and_alias & own_mask() : bin.heavy_counts();
     }
 
   private:
-    //     own_and_alias    | alias: the other bits | own counts: the low own_bits_ |
-    //     heavy_and_kind   | light: bit 31 | counts of the heavy entry, less 1: bits 0 to 30 |
-    // The heavy entry is the bin's own, or a light bin's alias.
-    struct Bin {
-        LUMIS_HD Bin() noexcept {}
-        LUMIS_HD Bin(std::uint32_t own_and_alias_, std::uint32_t heavy, bool light) noexcept
-            : own_and_alias{own_and_alias_}, heavy_and_kind{(heavy - 1) | (light ? light_bit : 0)} {}
-
-        static constexpr std::uint32_t light_bit = std::uint32_t{1} << 31;
-        [[nodiscard]] LUMIS_HD bool is_light() const noexcept { return heavy_and_kind >= light_bit; }
-        [[nodiscard]] LUMIS_HD std::uint32_t heavy_counts() const noexcept { return (heavy_and_kind & ~light_bit) + 1; }
-
-        std::uint32_t own_and_alias, heavy_and_kind;
-    };
+    template <class, template <class> class>
+    friend class AliasRows;
 
     [[nodiscard]] LUMIS_HD std::uint32_t own_mask() const noexcept { return (std::uint32_t{1} << own_bits_) - 1; }
 
     // The counts of a bin: those from ceil(bin total_counts / entries) on.
-    [[nodiscard]] LUMIS_HD std::uint32_t capacity(std::size_t bin) const noexcept {
+    [[nodiscard]] std::uint32_t capacity(std::size_t bin) const noexcept {
         if (larger_bins_ == 0) return capacity_;
         const auto extra = [&](std::uint64_t i) { return (i * larger_bins_ + entries_ - 1) / entries_; };
         return capacity_ + static_cast<std::uint32_t>(extra(bin + 1) - extra(bin));
@@ -111,7 +127,7 @@ class AliasRows {
     // Sets the bins of a row. One index sweeps over the light entries and one over the heavy ones (Huebschle-Schneider and
     // Sanders 2022, "Parallel Weighted Random Sampling"): no lists are needed, and the same heavy entry fills neighbouring
     // bins.
-    LUMIS_HD void fill(Bin* bins, std::span<const std::uint32_t> counts) const noexcept {
+    void fill(AliasBin* bins, std::span<const std::uint32_t> counts) const noexcept {
         const auto packed = [&](std::uint32_t own, std::size_t alias) {
             return static_cast<std::uint32_t>(alias << own_bits_) | own;
         };
@@ -126,12 +142,12 @@ class AliasRows {
             // While the heavy entry does not fit into its own bin, it fills up light ones.
             for (; left > room; light = next(light + 1, true)) {
                 left -= capacity(light) - counts[light];
-                bins[light] = Bin{packed(counts[light], heavy), counts[heavy], true};
+                bins[light] = AliasBin{packed(counts[light], heavy), counts[heavy], true};
             }
             // Then the rest of it goes there, and the next heavy entry fills up what remains. A full bin is stored as its own
             // alias: own_bits_ do not hold so many own counts.
             const std::size_t other = next(heavy + 1, false);
-            bins[heavy] = Bin{left < room ? packed(left, other) : packed(0, heavy), counts[heavy], false};
+            bins[heavy] = AliasBin{left < room ? packed(left, other) : packed(0, heavy), counts[heavy], false};
             if (other < entries_) left = counts[other] - (room - left);
             heavy = other;
         }
@@ -141,7 +157,7 @@ class AliasRows {
     std::uint32_t capacity_, larger_bins_;  // counts of a bin, of which so many hold one more
     int own_bits_, division_shift_;
     std::uint64_t reciprocal_;
-    std::vector<Bin> bins_;
+    Array<AliasBin> bins_;
 };
 
 }  // namespace lumis::detail

@@ -1,11 +1,12 @@
 // A grid of cells of [0,1]^2 drawn in proportion to weights: a row first, then a cell in it, both in fixed point (see
 // cumulative_counts.hpp). What the environment map and PiecewiseConstant2D are made of. Rows, the kind of the tables
-// within rows, is GuidedRows or AliasRows; the row itself is always drawn by a guided table.
+// within rows, is GuidedRows or AliasRows; the row itself is always drawn by a guided table. Array: see arrays.hpp.
 #pragma once
 
 #include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/throw.hpp"
+#include "lumis/tables/detail/arrays.hpp"
 #include "lumis/tables/detail/cumulative_counts.hpp"
 #include "lumis/tables/detail/guided_rows.hpp"
 
@@ -22,7 +23,8 @@
 
 namespace lumis::detail {
 
-template <std::floating_point T, template <class> class Rows = GuidedRows>
+template <std::floating_point T, template <class, template <class> class> class Rows = GuidedRows,
+          template <class> class Array = Owned>
 class CountGrid {
   public:
     // A drawn cell, its counts within its row, and where in it, in units of the cell.
@@ -40,16 +42,24 @@ class CountGrid {
 
     // A grid yet to be dealt. Throws std::invalid_argument for a size of 0 or beyond the number of counts, and if `values`, the
     // number of weights that there are, is not width x height.
-    LUMIS_HD CountGrid(std::integral auto width, std::integral auto height, std::size_t values)
+    CountGrid(std::integral auto width, std::integral auto height, std::size_t values)
         : width_{checked(width, "width")},
           height_{checked(height, "height", width_, values)},
           rows_{height_, 1},
           cells_{width_, height_} {}
 
+    // A view of the owner's arrays where place puts them, see viewed.
+    CountGrid(const CountGrid<T, Rows, Owned>& owner, auto& place)
+        : width_{owner.width_},
+          height_{owner.height_},
+          empty_{owner.empty_},
+          rows_{owner.rows_, place},
+          cells_{owner.cells_, place} {}
+
     // weights_of(row, weights) sets the weights of a row's cells, finite and not negative. scale(row), at most 4, is what a
     // row's sum of weights is multiplied by. for_each_row runs the rows, see InOrder. Throws if counts are too few for the weights, see
     // require_enough_counts.
-    LUMIS_HD void deal(auto weights_of, auto scale, const auto& for_each_row) {
+    void deal(auto weights_of, auto scale, const auto& for_each_row) {
         std::vector<Dealt> sums(height_);
         for_each_row(height_, [&](std::size_t row) {
             std::vector<double> weights(width_);
@@ -77,9 +87,7 @@ class CountGrid {
     [[nodiscard]] LUMIS_HD std::size_t width() const noexcept { return width_; }
     [[nodiscard]] LUMIS_HD std::size_t height() const noexcept { return height_; }
     [[nodiscard]] LUMIS_HD bool empty() const noexcept { return empty_; }
-    [[nodiscard]] LUMIS_HD std::size_t memory_bytes() const noexcept {
-        return rows_.memory_bytes() + cells_.memory_bytes();
-    }
+    [[nodiscard]] std::size_t memory_bytes() const noexcept { return rows_.memory_bytes() + cells_.memory_bytes(); }
 
     // u.y draws the row, u.x the cell within it. The position stays a few units in the last place clear of the cell's edges:
     // a point rounded across one would be given the density of one cell and belong to another. An empty grid draws its
@@ -95,7 +103,7 @@ class CountGrid {
 
     // The u that draws a point.
     [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Located& point) const noexcept requires
-        requires(const Rows<T>& rows) {
+        requires(const Rows<T, Array>& rows) {
         rows.uniform_of(0, 0, T(0));
     }
     {
@@ -118,7 +126,10 @@ class CountGrid {
     }
 
   private:
-    LUMIS_HD static std::size_t checked(std::integral auto extent, const char* name) {
+    template <std::floating_point, template <class, template <class> class> class, template <class> class>
+    friend class CountGrid;
+
+    static std::size_t checked(std::integral auto extent, const char* name) {
         if (extent <= 0 || std::cmp_greater(extent, total_counts<T>)) {
             refuse(std::string("lumis: a grid's ") + name + " is " + std::to_string(extent) +
                    "; it must be from 1 to " + std::to_string(total_counts<T>));
@@ -126,8 +137,7 @@ class CountGrid {
         return static_cast<std::size_t>(extent);
     }
 
-    LUMIS_HD static std::size_t checked(std::integral auto extent, const char* name, std::size_t width,
-                                        std::size_t values) {
+    static std::size_t checked(std::integral auto extent, const char* name, std::size_t width, std::size_t values) {
         const std::size_t height = checked(extent, name);
         if (values != std::uint64_t{width} * height) {  // a std::size_t of 32 bits may be too small for the product
             refuse("lumis: a grid of " + std::to_string(width) + " x " + std::to_string(height) + " got " +
@@ -138,8 +148,8 @@ class CountGrid {
 
     std::size_t width_, height_;
     bool empty_ = true;
-    GuidedRows<T> rows_;  // one table of all rows
-    Rows<T> cells_;       // a table of each row's cells
+    GuidedRows<T, Array> rows_;  // one table of all rows
+    Rows<T, Array> cells_;       // a table of each row's cells
 };
 
 }  // namespace lumis::detail

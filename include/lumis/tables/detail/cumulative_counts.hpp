@@ -30,24 +30,24 @@ inline constexpr std::uint32_t total_counts = std::uint32_t{1} << count_bits<T>;
 // How tables are built unless the host brings threads of its own: f(0), f(1), ..., f(n - 1), one after the other. A
 // host's own loop may call f in any order and at the same time; the tables come out the same.
 struct InOrder {
-    LUMIS_HD void operator()(std::size_t n, auto f) const {
+    void operator()(std::size_t n, auto f) const {
         for (std::size_t i = 0; i < n; ++i) f(i);
     }
 };
 
-template <std::floating_point T>
-[[nodiscard]] LUMIS_HD constexpr bool is_weight(T weight) noexcept {
-    return weight >= 0 && weight <= (std::numeric_limits<T>::max)();
+template <class Weight>
+[[nodiscard]] constexpr bool is_weight(Weight weight) noexcept {
+    return weight >= 0 && weight <= (std::numeric_limits<Weight>::max)();
 }
 
 // Throws std::invalid_argument naming the index and the value of the first weight that is NaN, infinite or negative.
 // They are looked at in rows of the given size, see InOrder.
-template <std::floating_point T>
-LUMIS_HD void require_weights(std::span<const T> weights, std::size_t row_size, const auto& for_each_row) {
+template <class Weight>
+void require_weights(std::span<const Weight> weights, std::size_t row_size, const auto& for_each_row) {
     std::vector<char> is_bad(weights.size() / row_size);
     for_each_row(is_bad.size(), [&](std::size_t row) {
         int bad = 0;  // counted, not searched for: that is done several at a time
-        for (const T weight : weights.subspan(row * row_size, row_size)) bad |= !is_weight(weight);
+        for (const Weight weight : weights.subspan(row * row_size, row_size)) bad |= !is_weight(weight);
         is_bad[row] = static_cast<char>(bad);
     });
     if (real::largest_of(is_bad) == 0) return;
@@ -56,8 +56,8 @@ LUMIS_HD void require_weights(std::span<const T> weights, std::size_t row_size, 
     refuse("lumis: weight " + std::to_string(i) + " is " + std::to_string(weights[i]) +
            "; weights must be finite and not negative");
 }
-template <std::floating_point T>
-LUMIS_HD void require_weights(std::span<const T> weights) {
+template <class Weight>
+void require_weights(std::span<const Weight> weights) {
     if (!weights.empty()) require_weights(weights, weights.size(), InOrder{});
 }
 
@@ -66,7 +66,7 @@ struct ScaledSum {
     double value{};
     int exponent{};
 
-    [[nodiscard]] LUMIS_HD double relative_to(int other_exponent) const noexcept {
+    [[nodiscard]] double relative_to(int other_exponent) const noexcept {
         return std::scalbn(value, exponent - other_exponent);
     }
 };
@@ -82,7 +82,7 @@ struct Dealt : ScaledSum {
 // but at least one for every weight above 0, and none for weight 0. weights: finite, not negative, not more than there are
 // counts; all 0 leaves every count to the last entry.
 template <std::floating_point T>
-LUMIS_HD Dealt deal_counts(std::span<const double> weights, auto start_of) {
+Dealt deal_counts(std::span<const double> weights, auto start_of) {
     // 1. The sum, in units of a power of two near the largest weight where it would leave double's range.
     double sum = 0, scale = 1;
     int exponent = 0;
@@ -147,13 +147,22 @@ inline constexpr double largest_excess = 0.25;
 // Throws std::invalid_argument if the counts are too few for the weights: so many of them are dim that what they take is
 // missing elsewhere. Up to a quarter of total_counts<T> weights (4 million in float) are never too many.
 template <std::floating_point T>
-LUMIS_HD void require_enough_counts(const Dealt& dealt) {
+void require_enough_counts(const Dealt& dealt) {
     if (dealt.excess <= largest_excess) return;
     refuse("lumis: " + std::to_string(dealt.dim) + " weights are less than 1/" + std::to_string(total_counts<T>) +
            " of the sum, the least probability of a table in this precision, and would take " +
            std::to_string(100 * dealt.excess) + " % of the draws beyond their share; at most 25 % are allowed. " +
            (total_counts<T> < total_counts<double> ? "AliasTable<double> and FineAliasTable have 2^31. " : "") +
            "Draw such weights from a table of their own, or merge them");
+}
+
+// Deals a table's only row, and throws std::invalid_argument for weights that are none, and for too few counts.
+template <std::floating_point T, class Weight>
+Dealt deal_checked(auto& table, std::span<const Weight> weights) {
+    require_weights(weights);
+    const Dealt dealt = table.deal(0, std::vector<double>(weights.begin(), weights.end()));
+    require_enough_counts<T>(dealt);
+    return dealt;
 }
 
 // An entry drawn by a uniform, its number of counts, and where within the run of counts the uniform lies, in (0, 1].
@@ -200,7 +209,7 @@ template <std::floating_point T>
 
 // The number of entries of a table, if counts can be dealt to them; throws std::invalid_argument if not.
 template <std::floating_point T>
-[[nodiscard]] LUMIS_HD std::size_t checked_size(std::size_t size) {
+[[nodiscard]] std::size_t checked_size(std::size_t size) {
     if (size == 0 || size > total_counts<T>) {
         refuse("lumis: a table of " + std::to_string(size) + " weights; there must be from 1 to " +
                std::to_string(total_counts<T>));

@@ -7,37 +7,56 @@
 
 #include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
+#include "lumis/tables/detail/arrays.hpp"
 #include "lumis/tables/detail/cumulative_counts.hpp"
 
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace lumis::detail {
 
-template <class T>
+// Elements of arrays are not initialised, so that the threads that deal the rows are the first to touch their memory.
+struct RunStart {
+    RunStart() noexcept {}
+    std::uint32_t value;
+};
+struct GuideEntry {
+    GuideEntry() noexcept {}
+    std::uint16_t value;
+};
+
+template <class T, template <class> class Array = Owned>
 class GuidedRows {
   public:
+    using Scalar = T;
+
     // `rows` tables of `entries` weights. Keeps 6 bytes a weight, and 6 more a row.
-    LUMIS_HD GuidedRows(std::size_t entries, std::size_t rows)
+    GuidedRows(std::size_t entries, std::size_t rows)
         : entries_{entries},
           guide_shift_{entries > 0x10000 ? static_cast<int>(std::bit_width(entries - 1)) - 16 : 0},
           starts_(rows * (entries_ + 1)),
           guide_(rows * (entries_ + 1)) {}
 
+    // A view of the owner's arrays where place puts them, see viewed.
+    GuidedRows(const GuidedRows<T, Owned>& owner, auto& place)
+        : entries_{owner.entries_},
+          guide_shift_{owner.guide_shift_},
+          starts_{viewed(owner.starts_, place)},
+          guide_{viewed(owner.guide_, place)} {}
+
     [[nodiscard]] LUMIS_HD std::size_t entries() const noexcept { return entries_; }
-    [[nodiscard]] LUMIS_HD std::size_t memory_bytes() const noexcept {
-        return starts_.size() * sizeof(Start) + guide_.size() * sizeof(Guide);
+    [[nodiscard]] std::size_t memory_bytes() const noexcept {
+        return starts_.size() * sizeof(RunStart) + guide_.size() * sizeof(GuideEntry);
     }
 
     // Sets one row; different rows may be dealt at the same time.
-    LUMIS_HD Dealt deal(std::size_t row, std::span<const double> weights) {
-        Start* const starts = &starts_[row * (entries_ + 1)];
+    Dealt deal(std::size_t row, std::span<const double> weights) {
+        RunStart* const starts = &starts_[row * (entries_ + 1)];
         const Dealt dealt = deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return starts[i].value; });
         starts[entries_].value = total_counts<T>;
-        Guide* const guide = &guide_[row * (entries_ + 1)];
+        GuideEntry* const guide = &guide_[row * (entries_ + 1)];
         std::size_t entry = 0;
         for (std::uint64_t run = 0; run < entries_; ++run) {
             const std::uint64_t begin = ((run << count_bits<T>)+entries_ - 1) / entries_;
@@ -52,10 +71,10 @@ class GuidedRows {
     // u in [0, 1]. An entry of weight 0 is never drawn.
     [[nodiscard]] LUMIS_HD DrawnEntry<T> draw(std::size_t row, T u) const noexcept {
         const auto [count, within] = lattice_point(u);
-        const Start* const starts = starts_.data() + row * (entries_ + 1);
+        const RunStart* const starts = starts_.data() + row * (entries_ + 1);
         const std::size_t run = (std::uint64_t{count} * entries_) >> count_bits<T>;
-        const Guide* const guide = guide_.data() + row * (entries_ + 1) + run;
-#if defined(__GNUC__)
+        const GuideEntry* const guide = guide_.data() + row * (entries_ + 1) + run;
+#if defined(__GNUC__) && !defined(__CUDA_ARCH__)
         __builtin_prefetch(starts + run);  // where an evenly lit row has it
 #endif
         // The entry drawn, the last one that starts at or before the count, lies between where this run begins and where
@@ -84,24 +103,17 @@ class GuidedRows {
     }
 
   private:
-    // Not initialised, so that the threads that deal the rows are the first to touch their memory.
-    struct Start {
-        LUMIS_HD Start() noexcept {}
-        std::uint32_t value;
-    };
-    struct Guide {
-        LUMIS_HD Guide() noexcept {}
-        std::uint16_t value;
-    };
+    template <class, template <class> class>
+    friend class GuidedRows;
 
     [[nodiscard]] LUMIS_HD std::uint32_t start(std::size_t row, std::size_t i) const noexcept {
         return starts_[row * (entries_ + 1) + i].value;
     }
 
     std::size_t entries_;
-    int guide_shift_;            // of tables beyond 2^16 entries
-    std::vector<Start> starts_;  // the number of counts before each entry, and behind the last one
-    std::vector<Guide> guide_;   // the group of entries in which each run begins, and the last one drawn
+    int guide_shift_;          // of tables beyond 2^16 entries
+    Array<RunStart> starts_;   // the number of counts before each entry, and behind the last one
+    Array<GuideEntry> guide_;  // the group of entries in which each run begins, and the last one drawn
 };
 
 }  // namespace lumis::detail
