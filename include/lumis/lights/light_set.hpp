@@ -5,6 +5,7 @@
 // weights is best made once as well, and passed as it is: nothing is then allocated where light is sampled.
 #pragma once
 
+#include "lumis/core/assert.hpp"
 #include "lumis/core/detail/held.hpp"
 #include "lumis/core/detail/spannable.hpp"
 #include "lumis/core/platform.hpp"
@@ -34,7 +35,7 @@ template <class Lights>
 
 }  // namespace detail
 
-// Lights and Table (an AliasTable or FineAliasTable) may be references, see Held.
+// Lights and Table (an AliasTable, a FineAliasTable, or a view of one) may be references, see Held.
 template <class Lights, class Table>
 class LightSet {
     using Light = std::remove_cvref_t<decltype(detail::light_of(std::declval<const std::remove_cvref_t<Lights>&>(),
@@ -57,15 +58,17 @@ class LightSet {
                   "the weights of a light set have its scalar type");
 
     // weights: a table, or what one is made of; throws as that does, and if a range of lights is of another size.
-    // No lights and no weights are an empty set.
+    // No lights and no weights are an empty set. Device code takes a view of a table, and asserts that the sizes agree.
     template <class Weights>
-        requires(!std::is_reference_v<Table>)
-    LUMIS_HD LightSet(Lights lights LUMIS_LIFETIME_BOUND, Weights&& weights)
+        requires(!std::is_trivially_destructible_v<Table>)
+    LightSet(Lights lights LUMIS_LIFETIME_BOUND, Weights&& weights)
         : lights_{std::forward<Lights>(lights)}, table_{table_of(std::forward<Weights>(weights))} {
         require_same_size();
     }
+    // A table that is referred to, or its view.
     LUMIS_HD LightSet(Lights lights LUMIS_LIFETIME_BOUND,
-                      Table weights LUMIS_LIFETIME_BOUND) requires std::is_reference_v<Table>
+                      std::type_identity_t<Table> weights
+                          LUMIS_LIFETIME_BOUND) requires std::is_trivially_destructible_v<Table>
         : lights_{std::forward<Lights>(lights)}, table_{weights} {
         require_same_size();
     }
@@ -138,16 +141,21 @@ class LightSet {
     LUMIS_HD void require_same_size() const {
         if constexpr (requires { std::size(lights_); }) {
             const std::size_t count = std::size(lights_);
-            if (count != table_.size() && !(count == 0 && table_.empty())) {
+            const bool agree = count == table_.size() || (count == 0 && table_.empty());
+#ifdef __CUDA_ARCH__
+            LUMIS_ASSERT(agree);
+#else
+            if (!agree) {
                 detail::refuse("lumis: " + std::to_string(count) + " lights got " + std::to_string(table_.size()) +
                                " weights");
             }
+#endif
         }
     }
 
     // A table has at least one weight: that of an empty set is 0.
     template <class Weights>
-    LUMIS_HD static decltype(auto) table_of(Weights&& weights) {
+    static decltype(auto) table_of(Weights&& weights) {
         if constexpr (std::same_as<std::remove_cvref_t<Weights>, std::remove_cvref_t<Table>>) {
             return std::forward<Weights>(weights);
         } else {
@@ -169,7 +177,9 @@ class LightSet {
         return density_or_zero(sum);
     }
 
-    [[nodiscard]] LUMIS_HD decltype(auto) light(std::size_t index) const { return detail::light_of(lights_, index); }
+    [[nodiscard]] LUMIS_HD decltype(auto) light(std::size_t index) const {
+        return detail::light_of(lights_, index);
+    }
 
     Lights lights_;
     Table table_;
