@@ -1,6 +1,14 @@
 // All of Lumis except batch/ and testing/, which cost compile time and are included by name.
 #pragma once
 
+// nvcc compiles templates for host and device, and warns where what they are given is for the host only: an integrand, a
+// source of uniforms, a strategy of the host's own (20011, 20014). What a kernel cannot call is an error all the same.
+// 20012 is about GLM's annotations.
+#ifdef __NVCC__
+#pragma nv_diagnostic push
+#pragma nv_diag_suppress 20011, 20012, 20014
+#endif
+
 #include "lumis/combine/heuristics.hpp"
 #include "lumis/combine/in_frame.hpp"
 #include "lumis/combine/mixture.hpp"
@@ -32,3 +40,7 @@
 #include "lumis/statistics/running_moments.hpp"
 #include "lumis/tables/alias_table.hpp"
 #include "lumis/tables/piecewise_constant.hpp"
+
+#ifdef __NVCC__
+#pragma nv_diagnostic pop
+#endif
