@@ -93,9 +93,9 @@ concept Real = FloatOrDouble<R> || requires {
     typename R::Lane;
 };
 
-// A T, or lanes of T.
+// A T or, where T is a number, lanes of it: what the kernel of a strategy with parameters T takes.
 template <class R, class T>
-concept RealOf = Real<R> && std::same_as<scalar_of<R>, T>;
+concept RealOf = Real<R> &&(std::same_as<R, T> || std::same_as<scalar_of<R>, T>);
 
 // What a comparison of two R yields: bool, or one for each lane.
 template <Real R>
