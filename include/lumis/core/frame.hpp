@@ -14,15 +14,15 @@
 
 namespace lumis {
 
-template <std::floating_point T = float>
+template <Real T = float>
 class Frame {
   public:
     // Any frame around a normal, which is asserted to be a unit vector; else it is scaled to one, and where it has no
     // direction nothing is drawn in the frame (Duff et al. 2017, "Building an Orthonormal Basis, Revisited", listing 3).
     LUMIS_INLINE explicit Frame(const Direction<T>& any_normal) noexcept {
-        LUMIS_ASSERT(detail::is_unit(any_normal));
+        LUMIS_ASSERT(real::all(detail::is_unit(any_normal)));
         const Direction<T> normal = normal_ = detail::unit_or(any_normal, not_a_number);
-        const T sign = std::copysign(T(1), normal.z);
+        const T sign = real::copysign(T(1), normal.z);
         const T a = real::divide(T(-1), sign + normal.z);
         const T b = normal.x * normal.y * a;
         tangent_ = {T(1) + sign * normal.x * normal.x * a, sign * b, -sign * normal.x};
@@ -34,9 +34,10 @@ class Frame {
     LUMIS_HD constexpr Frame(const Direction<T>& tangent, const Direction<T>& bitangent,
                              const Direction<T>& normal) noexcept
         : tangent_{tangent}, bitangent_{bitangent}, normal_{normal} {
-        LUMIS_ASSERT(detail::are_orthonormal(tangent, bitangent, normal));
-        if (!detail::are_orthonormal(tangent, bitangent, normal)) [[unlikely]]
-            *this = orthonormal(tangent, bitangent, normal);
+        const auto orthonormal = detail::are_orthonormal(tangent, bitangent, normal);
+        LUMIS_ASSERT(real::all(orthonormal));
+        if (!real::all(orthonormal)) [[unlikely]]
+            *this = select(orthonormal, *this, made_orthonormal(tangent, bitangent, normal));
     }
 
     template <RealOf<T> R = T>
@@ -55,23 +56,29 @@ class Frame {
 
   private:
     // A vector that has no direction becomes this, of which strategies draw nothing.
-    static constexpr T not_a_number = std::numeric_limits<T>::quiet_NaN();
+    static constexpr scalar_of<T> not_a_number = std::numeric_limits<T>::quiet_NaN();
 
-    [[nodiscard]] LUMIS_COLD static Frame orthonormal(Direction<T> tangent, Direction<T> bitangent,
-                                                      Direction<T> normal) noexcept {
-        const bool left_handed = detail::dot(glm::cross(normal, tangent), bitangent) < 0;
+    [[nodiscard]] LUMIS_COLD static Frame made_orthonormal(Direction<T> tangent, Direction<T> bitangent,
+                                                           Direction<T> normal) noexcept {
+        const auto left_handed = detail::dot(glm::cross(normal, tangent), bitangent) < 0;
         Frame frame;
         frame.normal_ = detail::unit_or(normal, not_a_number);
         // Twice: what the first pass leaves of a tangent next to the normal is rounding as well.
         const Direction<T> across = without_normal(frame.normal_, detail::unit_or(tangent, not_a_number));
-        if (!(detail::dot(across, across) >= detail::squared(T(1e-3)))) {
-            frame.tangent_ = frame.bitangent_ = frame.normal_ = Direction<T>{not_a_number};
-            return frame;
-        }
         frame.tangent_ =
             detail::unit_or(without_normal(frame.normal_, detail::unit_or(across, not_a_number)), not_a_number);
-        frame.bitangent_ = glm::cross(frame.normal_, frame.tangent_) * (left_handed ? T(-1) : T(1));
-        return frame;
+        frame.bitangent_ = glm::cross(frame.normal_, frame.tangent_) * real::select(left_handed, T(-1), 1);
+        Frame none;
+        none.tangent_ = none.bitangent_ = none.normal_ = Direction<T>{T(not_a_number)};
+        return select(detail::dot(across, across) >= detail::squared(scalar_of<T>(1e-3)), frame, none);
+    }
+
+    LUMIS_HD static constexpr Frame select(const MaskOf<T>& condition, const Frame& a, const Frame& b) noexcept {
+        Frame result;
+        result.tangent_ = real::select(condition, a.tangent_, b.tangent_);
+        result.bitangent_ = real::select(condition, a.bitangent_, b.bitangent_);
+        result.normal_ = real::select(condition, a.normal_, b.normal_);
+        return result;
     }
 
     LUMIS_HD static Direction<T> without_normal(const Direction<T>& normal, const Direction<T>& v) noexcept {

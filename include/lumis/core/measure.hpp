@@ -4,6 +4,8 @@
 #include "lumis/core/platform.hpp"
 #include "lumis/core/sample.hpp"
 
+#include <type_traits>
+
 namespace lumis {
 
 namespace measure {
@@ -17,7 +19,7 @@ struct Counting {};    // of indices: the density is a probability
 // distance to the surface point and the cosine there between the surface normal and the direction (Veach 1997, eq. 8.2).
 // Yields 0 where no density can be formed: edge-on, at distance 0, for a surface without area.
 template <Real R>
-[[nodiscard]] LUMIS_HD R area_to_solid_angle(scalar_of<R> pdf_area, R distance, R cos_light) noexcept {
+[[nodiscard]] LUMIS_HD R area_to_solid_angle(std::type_identity_t<R> pdf_area, R distance, R cos_light) noexcept {
     const R cosine = real::abs(cos_light);
     return density_or_zero(real::quotient_where(cosine > 0, R(pdf_area * distance * distance), cosine));
 }

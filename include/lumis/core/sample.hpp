@@ -54,11 +54,13 @@ template <Real R>
 // A local direction above the horizon stays as it is. One below it, and what is no direction (NaN, or of a length whose
 // square is out of range), becomes the zero vector, from which nothing is drawn. It is asserted to be a unit vector; a
 // longer or shorter one is scaled to one.
-template <std::floating_point T>
-[[nodiscard]] LUMIS_HD constexpr Direction<T> above_horizon_or_zero(const Direction<T>& wo) noexcept {
-    LUMIS_ASSERT(detail::is_unit(wo));
-    const Direction<T> unit = detail::unit_or(wo, T(0));
-    return unit.z > 0 ? unit : Direction<T>{T(0)};
+template <Real R>
+[[nodiscard]] LUMIS_HD constexpr Direction<R> above_horizon_or_zero(const Direction<R>& wo) noexcept {
+    LUMIS_ASSERT(real::all(detail::is_unit(wo)));
+    const Direction<R> unit = detail::unit_or(wo, 0);
+    const auto above = unit.z > 0;
+    if (real::all(above)) return unit;
+    return real::select(above, unit, Direction<R>{R(0)});
 }
 
 }  // namespace lumis

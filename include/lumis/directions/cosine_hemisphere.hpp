@@ -11,7 +11,7 @@
 
 namespace lumis {
 
-template <std::floating_point T = float>
+template <Real T = float>
 struct CosineHemisphere {
     using Scalar = T;
     using Point = Direction<T>;
@@ -24,12 +24,12 @@ struct CosineHemisphere {
         const R radius = real::sqrt(u.x);
         const auto circle = unit_circle(u.y);
         const R z = real::sqrt(R(1 - u.x));
-        return {{radius * circle.x, radius * circle.y, z}, z * std::numbers::inv_pi_v<T>};
+        return {{radius * circle.x, radius * circle.y, z}, z * std::numbers::inv_pi_v<scalar_of<T>>};
     }
 
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD R pdf(const Direction<R>& w) const noexcept {
-        return density_or_zero(R(w.z * std::numbers::inv_pi_v<T>));
+        return density_or_zero(R(w.z * std::numbers::inv_pi_v<scalar_of<T>>));
     }
 
     [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& w) const noexcept {

@@ -11,7 +11,7 @@
 
 namespace lumis {
 
-template <std::floating_point T = float>
+template <Real T = float>
 struct UniformHemisphere {
     using Scalar = T;
     using Point = Direction<T>;
@@ -28,7 +28,7 @@ struct UniformHemisphere {
 
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD R pdf(const Direction<R>& w) const noexcept {
-        return real::select(w.z > 0, R(std::numbers::inv_pi_v<T> / 2), 0);
+        return real::select(w.z > 0, R(std::numbers::inv_pi_v<scalar_of<T>> / 2), 0);
     }
 
     [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& w) const noexcept {

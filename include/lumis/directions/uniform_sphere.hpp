@@ -10,7 +10,7 @@
 
 namespace lumis {
 
-template <std::floating_point T = float>
+template <Real T = float>
 struct UniformSphere {
     using Scalar = T;
     using Point = Direction<T>;
@@ -20,12 +20,12 @@ struct UniformSphere {
     // u.x = (1 - cos(theta)) / 2, u.y = phi / 2 pi.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD Sample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
-        return {direction_at(R(2 * u.x), u.y), std::numbers::inv_pi_v<T> / 4};
+        return {direction_at(R(2 * u.x), u.y), std::numbers::inv_pi_v<scalar_of<T>> / 4};
     }
 
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD R pdf(const Direction<R>& /*w*/) const noexcept {
-        return std::numbers::inv_pi_v<T> / 4;
+        return std::numbers::inv_pi_v<scalar_of<T>> / 4;
     }
 
     [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& w) const noexcept {
