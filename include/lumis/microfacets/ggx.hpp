@@ -21,17 +21,20 @@ inline constexpr float ggx_min_alpha = 1e-4f;
 // Beyond this a roughness is out of range, as are negative and NaN ones: D, G1 and every density built on them are 0.
 inline constexpr float ggx_max_alpha = 1e4f;
 
-template <std::floating_point T = float>
+template <Real T = float>
 class Ggx {
   public:
     // Roughness along x and y.
     LUMIS_INLINE explicit Ggx(glm::vec<2, T> alpha) noexcept : alpha_{in_range(alpha.x), in_range(alpha.y)} {
-        LUMIS_ASSERT(!detail::is_nan(alpha));
-        if (alpha_.x * alpha_.y > 0) {
-            inverse_alpha_ = {real::divide(T(1), alpha_.x), real::divide(T(1), alpha_.y)};
-        } else {
+        LUMIS_ASSERT(real::all(!detail::is_nan(alpha)));
+        const auto valid = alpha_.x * alpha_.y > 0;
+        if (real::all(!valid)) {
             alpha_ = {T(0), T(0)};
+            return;
         }
+        inverse_alpha_ = {real::select(valid, real::divide(T(1), alpha_.x), 0),
+                          real::select(valid, real::divide(T(1), alpha_.y), 0)};
+        alpha_ = {real::select(valid, alpha_.x, 0), real::select(valid, alpha_.y, 0)};
     }
 
     // After raising; (0, 0) if out of range.
@@ -44,7 +47,7 @@ class Ggx {
         const R x = wm.x * inverse_alpha_.x, y = wm.y * inverse_alpha_.y;
         const R stretched = x * x + y * y + wm.z * wm.z;
         const R shrinkage = real::divide(R(glm::dot(wm, wm)), real::divisor_where(stretched > 0, stretched));
-        const T peak = std::numbers::inv_pi_v<T> * inverse_alpha_.x * inverse_alpha_.y;
+        const T peak = std::numbers::inv_pi_v<scalar_of<T>> * inverse_alpha_.x * inverse_alpha_.y;
         return real::select(wm.z > 0, peak * shrinkage * shrinkage, 0);
     }
 
@@ -62,7 +65,7 @@ class Ggx {
         const R x = alpha_.x * w.x, y = alpha_.y * w.y, z = real::abs(w.z);
         const R slope = x * x + y * y, divisor = 2 * z * (z + real::sqrt(R(slope + z * z)));
         const R quotient = real::divide(slope, real::divisor_where(divisor > 0, divisor));
-        const R grazing = std::numeric_limits<T>::infinity();
+        const R grazing{std::numeric_limits<T>::infinity()};
         return real::select(slope > 0, real::select(divisor > 0, quotient, grazing), 0);
     }
 
@@ -86,16 +89,19 @@ class Ggx {
 
   private:
     LUMIS_HD static T in_range(T alpha) noexcept {
-        return alpha >= 0 && alpha <= T(ggx_max_alpha) ? real::greater(alpha, T(ggx_min_alpha)) : T(0);
+        using Number = scalar_of<T>;
+        return real::select(alpha >= 0 && alpha <= Number(ggx_max_alpha), real::greater(alpha, Number(ggx_min_alpha)),
+                            0);
     }
-    [[nodiscard]] LUMIS_HD bool valid() const noexcept { return alpha_.x > 0; }
+    [[nodiscard]] LUMIS_HD MaskOf<T> valid() const noexcept { return alpha_.x > 0; }
 
     // G2 / (4 wo.z wi.z), with the cosines cancelled by hand so that grazing directions divide nothing by 0.
     template <RealOf<T> R>
     [[nodiscard]] LUMIS_HD R visibility(const Direction<T>& wo, const Direction<R>& wi) const noexcept {
-        if (!(wo.z > 0 && valid())) return 0;
+        const auto seen = wo.z > 0 && valid();
+        if (real::all(!seen)) return 0;
         const R divisor = wo.z * stretched_length(wi) + wi.z * stretched_length(wo);
-        return real::quotient_where(wi.z > 0 && divisor > 0, R(T(0.5)), divisor);
+        return real::quotient_where(seen && wi.z > 0 && divisor > 0, R(scalar_of<R>(0.5)), divisor);
     }
 
     glm::vec<2, T> alpha_;

@@ -15,16 +15,16 @@ namespace detail {
 
 // By how much the cap can fall short of the visible hemisphere: 1 - k of Eto and Tokuyoshi's listing, where
 // k = (1 - a^2) s^2 / (s^2 + a^2 z^2), without the cancellation.
-template <std::floating_point T>
+template <Real T>
 [[nodiscard]] LUMIS_HD T bounded_cap_shortfall(const Direction<T>& wo, const glm::vec<2, T>& alpha) noexcept {
-    const T a = real::lesser(real::lesser(alpha.x, alpha.y), T(1));
-    const T s = 1 + real::sqrt(wo.x * wo.x + wo.y * wo.y);
+    const T a = real::lesser(real::lesser(alpha.x, alpha.y), 1);
+    const T s = 1 + real::sqrt(T(wo.x * wo.x + wo.y * wo.y));
     const T a2 = a * a, s2 = s * s, z2 = wo.z * wo.z;
     return real::divide(a2 * (s2 + z2), s2 + a2 * z2);
 }
 
 // A density of the normals that reflect above the horizon; of others it knows nothing.
-template <std::floating_point T>
+template <Real T>
 struct GgxBoundedNormals : GgxCap<T> {
     LUMIS_INLINE GgxBoundedNormals(const Direction<T>& wo, const Ggx<T>& ggx) noexcept
         : GgxCap<T>{wo, ggx, [](const auto&... seen) { return bounded_cap_shortfall(seen...); }} {}
@@ -32,7 +32,7 @@ struct GgxBoundedNormals : GgxCap<T> {
 
 }  // namespace detail
 
-template <std::floating_point T = float>
+template <Real T = float>
 struct GgxBoundedReflection : Reflected<detail::GgxBoundedNormals<T>> {
     // wo: unit; on or below the horizon nothing is drawn. alpha: roughness along x and y, see ggx_min_alpha.
     LUMIS_INLINE GgxBoundedReflection(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept

@@ -13,7 +13,7 @@
 
 namespace lumis {
 
-template <std::floating_point T = float>
+template <Real T = float>
 class GgxNdf {
   public:
     using Scalar = T;

@@ -9,7 +9,7 @@
 
 namespace lumis {
 
-template <std::floating_point T = float>
+template <Real T = float>
 struct GgxReflection : Reflected<GgxVndf<T>> {
     LUMIS_INLINE GgxReflection(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept
         : Reflected<GgxVndf<T>>{wo, GgxVndf<T>{wo, alpha}} {}

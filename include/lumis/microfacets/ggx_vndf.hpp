@@ -7,7 +7,7 @@
 
 namespace lumis {
 
-template <std::floating_point T = float>
+template <Real T = float>
 struct GgxVndf : detail::GgxCap<T> {
     // wo: unit; on or below the horizon nothing is drawn. alpha: roughness along x and y, see ggx_min_alpha.
     LUMIS_INLINE GgxVndf(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept

@@ -6,7 +6,7 @@
 
 namespace lumis {
 
-template <std::floating_point T = float>
+template <Real T = float>
 class PerfectReflection {
   public:
     using Scalar = T;
@@ -20,13 +20,12 @@ class PerfectReflection {
 
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD constexpr Sample<Direction<R>, R> sample(glm::vec<2, R>) const noexcept {
-        if (!(wo_.z > 0)) return {Direction<R>{T(0)}, T(0)};
-        return {{-wo_.x, -wo_.y, wo_.z}, T(1)};
+        return {{-wo_.x, -wo_.y, wo_.z}, real::select(wo_.z > 0, R(scalar_of<R>(1)), 0)};
     }
 
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD constexpr R pdf(const Direction<R>&) const noexcept {
-        return T(0);
+        return R(scalar_of<R>(0));
     }
 
   private:

@@ -13,7 +13,7 @@
 
 namespace lumis::detail {
 
-template <std::floating_point T>
+template <Real T>
 class GgxCap {
   public:
     using Scalar = T;
@@ -26,12 +26,14 @@ class GgxCap {
     LUMIS_INLINE GgxCap(const Direction<T>& wo, const Ggx<T>& ggx, const ShortfallOf& shortfall_of) noexcept
         : ggx_{ggx}, wo_{above_horizon_or_zero(wo)} {
         const T length = ggx_.stretched_length(wo_);
-        if (!is_squared_length(length * length)) return;
+        const auto seen = is_squared_length(T(length * length));
+        if (real::all(!seen)) return;
         const T shortfall = shortfall_of(wo_, ggx.alpha());
-        wo_std_ = real::divide(Direction<T>{ggx_.alpha().x * wo_.x, ggx_.alpha().y * wo_.y, wo_.z}, length);
+        const Direction<T> stretched{ggx_.alpha().x * wo_.x, ggx_.alpha().y * wo_.y, wo_.z};
+        wo_std_ = real::select(seen, real::divide(stretched, length), wo_std_);
         shortfall_ = shortfall;
         cap_height_ = 1 + (1 - shortfall) * wo_std_.z;
-        masking_ = real::divide(T(2), (1 - shortfall) * wo_.z + length);
+        masking_ = real::select(seen, real::divide(T(2), (1 - shortfall) * wo_.z + length), 0);
     }
 
     // u.x = 0 is the top of the cap, u.y = phi / 2 pi.
@@ -76,10 +78,10 @@ class GgxCap {
   private:
     Ggx<T> ggx_;
     Direction<T> wo_;
-    Direction<T> wo_std_{};  // wo stretched by alpha, unit
-    T shortfall_{};
+    Direction<T> wo_std_{T(0)};  // wo stretched by alpha, unit
+    T shortfall_{0};
     T cap_height_{1};
-    T masking_{};  // G1(wo) / wo.z, which is finite at grazing; 0 on and below the horizon
+    T masking_{0};  // G1(wo) / wo.z, which is finite at grazing; 0 on and below the horizon
 };
 
 }  // namespace lumis::detail
