@@ -1,0 +1,167 @@
+// Strategies of which each lane may have its own parameters. A subject says how many numbers its strategy is made of, how
+// to make it of numbers or of lanes, which numbers are ordinary, and which are wrong or degenerate.
+#pragma once
+
+#include <lumis/lumis.hpp>
+
+#include <glm/geometric.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <random>
+#include <tuple>
+#include <vector>
+
+namespace subjects {
+
+template <class T>
+lumis::Direction<T> random_unit(std::mt19937& engine) {
+    std::normal_distribution<double> normal;
+    return lumis::Direction<T>(glm::normalize(glm::dvec3{normal(engine), normal(engine), normal(engine)}));
+}
+
+template <class T>
+inline constexpr T not_a_number = std::numeric_limits<T>::quiet_NaN();
+
+template <template <class> class Hemisphere>
+struct WithoutParameters {
+    static constexpr std::size_t parameters = 0;
+    template <class R>
+    static auto make(const std::array<R, 0>&) {
+        return Hemisphere<R>{};
+    }
+    template <class T>
+    static std::array<T, 0> random(std::mt19937&) {
+        return {};
+    }
+    template <class T>
+    static std::vector<std::array<T, 0>> degenerate() {
+        return {{}};
+    }
+};
+
+// By a normal: x, y, z.
+struct InFrameOfNormal {
+    static constexpr std::size_t parameters = 3;
+    template <class R>
+    static auto make(const std::array<R, 3>& n) {
+        return lumis::in_frame(lumis::Frame<R>{lumis::Direction<R>{n[0], n[1], n[2]}}, lumis::CosineHemisphere<R>{});
+    }
+    template <class T>
+    static std::array<T, 3> random(std::mt19937& engine) {
+        const auto n = random_unit<T>(engine);
+        return {n.x, n.y, n.z};
+    }
+    template <class T>
+    static std::vector<std::array<T, 3>> degenerate() {
+        return {{0, 0, 0}, {0, 0, -1}, {0, T(-0.0), 1}, {3, 4, 0}, {not_a_number<T>, 0, 1}, {T(1e-30), 0, T(1e-30)}};
+    }
+};
+
+// By tangent, bitangent and normal.
+struct InFrameOfThree {
+    static constexpr std::size_t parameters = 9;
+    template <class R>
+    static auto make(const std::array<R, 9>& v) {
+        return lumis::in_frame(lumis::Frame<R>{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}},
+                               lumis::CosineHemisphere<R>{});
+    }
+    template <class T>
+    static std::array<T, 9> of(const lumis::Direction<T>& t, const lumis::Direction<T>& b,
+                               const lumis::Direction<T>& n) {
+        return {t.x, t.y, t.z, b.x, b.y, b.z, n.x, n.y, n.z};
+    }
+    template <class T>
+    static std::array<T, 9> random(std::mt19937& engine) {
+        const lumis::Frame<T> frame{random_unit<T>(engine)};
+        return of(frame.tangent(), frame.bitangent(), frame.normal());
+    }
+    template <class T>
+    static std::vector<std::array<T, 9>> degenerate() {
+        using V = lumis::Direction<T>;
+        const V x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, none{T(0)};
+        return {of(y, x, z),       of(T(2) * x, y, z),           of(x + T(0.25) * z, y, z),
+                of(x, y, none),    of(x, y, V{not_a_number<T>}), of(z, y, z),
+                of(none, none, z), of(y, x, T(0.5) * z)};
+    }
+};
+
+// wo and the roughness along x and y.
+template <class MakeOf>
+struct OfDirectionAndRoughness {
+    static constexpr std::size_t parameters = 5;
+    template <class R>
+    static auto make(const std::array<R, 5>& p) {
+        return MakeOf{}(lumis::Direction<R>{p[0], p[1], p[2]}, glm::vec<2, R>{p[3], p[4]});
+    }
+    template <class T>
+    static std::array<T, 5> random(std::mt19937& engine) {
+        const auto wo = random_unit<T>(engine);
+        std::uniform_real_distribution<double> logarithm{-4, 0.5};
+        return {wo.x, wo.y, std::abs(wo.z), T(std::exp(logarithm(engine))), T(std::exp(logarithm(engine)))};
+    }
+    template <class T>
+    static std::vector<std::array<T, 5>> degenerate() {
+        const T nan = not_a_number<T>, wide = T(0.3);
+        return {{T(0.6), 0, T(-0.8), wide, wide},
+                {1, 0, 0, wide, wide},
+                {0, 0, 1, wide, wide},
+                {0, 0, 0, wide, wide},
+                {nan, 0, 1, wide, wide},
+                {0, T(1.2), T(1.6), wide, 1},
+                {T(0.6), 0, T(0.8), nan, wide},
+                {T(0.6), 0, T(0.8), 0, 0},
+                {T(0.6), 0, T(0.8), wide, -1},
+                {T(0.6), 0, T(0.8), 20'000, 1},
+                {1, 0, T(1e-30), 0, 10},
+                {1, 0, T(1e-6), wide, T(0.01)}};
+    }
+};
+
+struct MakeGgxNdf {
+    template <class R>
+    auto operator()(const lumis::Direction<R>&, const glm::vec<2, R>& alpha) const {
+        return lumis::GgxNdf<R>{alpha};
+    }
+};
+struct MakeGgxVndf {
+    template <class R>
+    auto operator()(const lumis::Direction<R>& wo, const glm::vec<2, R>& alpha) const {
+        return lumis::GgxVndf<R>{wo, alpha};
+    }
+};
+struct MakeGgxReflection {
+    template <class R>
+    auto operator()(const lumis::Direction<R>& wo, const glm::vec<2, R>& alpha) const {
+        return lumis::GgxReflection<R>{wo, alpha};
+    }
+};
+struct MakeGgxBoundedReflection {
+    template <class R>
+    auto operator()(const lumis::Direction<R>& wo, const glm::vec<2, R>& alpha) const {
+        return lumis::GgxBoundedReflection<R>{wo, alpha};
+    }
+};
+struct MakeReflectedNdf {
+    template <class R>
+    auto operator()(const lumis::Direction<R>& wo, const glm::vec<2, R>& alpha) const {
+        return lumis::Reflected{wo, lumis::GgxNdf<R>{alpha}};
+    }
+};
+struct MakePerfectReflection {
+    template <class R>
+    auto operator()(const lumis::Direction<R>& wo, const glm::vec<2, R>&) const {
+        return lumis::PerfectReflection<R>{wo};
+    }
+};
+
+using WithOwnParameters =
+    std::tuple<WithoutParameters<lumis::CosineHemisphere>, WithoutParameters<lumis::UniformHemisphere>,
+               WithoutParameters<lumis::UniformSphere>, InFrameOfNormal, InFrameOfThree,
+               OfDirectionAndRoughness<MakeGgxNdf>, OfDirectionAndRoughness<MakeGgxVndf>,
+               OfDirectionAndRoughness<MakeGgxReflection>, OfDirectionAndRoughness<MakeGgxBoundedReflection>,
+               OfDirectionAndRoughness<MakeReflectedNdf>, OfDirectionAndRoughness<MakePerfectReflection>>;
+
+}  // namespace subjects
