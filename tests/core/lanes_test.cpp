@@ -108,6 +108,19 @@ TEMPLATE_TEST_CASE("a condition on lanes", "[lanes]", lumis::NativeLanes<float>,
     }
 }
 
+TEMPLATE_TEST_CASE("lanes are converted as their numbers", "[lanes]", lumis::NativeLanes<float>,
+                   lumis::NativeLanes<double>, (lumis::Lanes<float, 1>), (lumis::Lanes<float, 2>),
+                   (lumis::Lanes<float, 8>), (lumis::Lanes<float, 32>), (lumis::Lanes<double, 16>)) {
+    using T = typename TestType::Lane;
+    using U = std::conditional_t<sizeof(T) == 4, double, float>;
+    using Other = typename TestType::template Of<U>;
+    for (std::size_t shift = 0; shift < 9; ++shift) {
+        const auto a = mixed<TestType>(shift) / TestType{T(3)};
+        const Other converted{a};
+        for (std::size_t i = 0; i < a.size; ++i) CHECK(same_bits(converted[i], static_cast<U>(a[i])));
+    }
+}
+
 TEMPLATE_TEST_CASE("the sign of zero is kept", "[lanes]", lumis::NativeLanes<float>, lumis::NativeLanes<double>) {
     using L = TestType;
     using T = typename L::Lane;

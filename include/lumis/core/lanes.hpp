@@ -49,6 +49,8 @@ class Lanes {
 
   public:
     using Lane = T;
+    template <std::floating_point U>
+    using Of = Lanes<U, N>;  // as many lanes, of another type
     using Vector = typename detail::VectorOf<T, N>::type;
     using Mask = LaneMask<Bits, N>;
     static constexpr std::size_t size = N;
@@ -57,6 +59,10 @@ class Lanes {
     // x in every lane.
     LUMIS_INLINE Lanes(T x) noexcept : v_{detail::everywhere<Vector>(x)} {}
     LUMIS_INLINE explicit Lanes(Vector v) noexcept : v_{v} {}
+    // The numbers of x, rounded to T.
+    template <std::floating_point U>
+        requires(!std::same_as<U, T>)
+    LUMIS_INLINE explicit Lanes(Lanes<U, N> x) noexcept : v_{detail::converted_lanes<T, U, N>(x.vector())} {}
 
     [[nodiscard]] LUMIS_INLINE static Lanes load(const T* from) noexcept {
         Lanes result;

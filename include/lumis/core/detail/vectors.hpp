@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 namespace lumis::detail {
 
@@ -112,6 +113,35 @@ template <class V>
     } else {
         return rounded(x);
     }
+}
+
+// N numbers as those of another type, rounded.
+template <class To, class From, std::size_t N>
+[[nodiscard]] LUMIS_INLINE inline auto converted_lanes(const typename VectorOf<From, N>::type& x) noexcept {
+    using Result = typename VectorOf<To, N>::type;
+#ifdef LUMIS_HAS_VECTORS
+    if constexpr (!IsArray<Result> && !IsArray<std::remove_cvref_t<decltype(x)>>) {
+        return __builtin_convertvector(x, Result);
+    } else {
+        typename VectorOf<From, N / 2>::type from[2];
+        std::memcpy(from, &x, sizeof from);
+        const typename VectorOf<To, N / 2>::type to[] = {converted_lanes<To, From, N / 2>(from[0]),
+                                                         converted_lanes<To, From, N / 2>(from[1])};
+#if LUMIS_HAS_BUILTIN(__builtin_shufflevector)
+        if constexpr (!IsArray<Result>) {  // not by way of memory
+            const auto joined = [&]<std::size_t... I>(std::index_sequence<I...>) {
+                return __builtin_shufflevector(to[0], to[1], static_cast<int>(I)...);
+            };
+            return joined(std::make_index_sequence<N>{});
+        }
+#endif
+        Result result;
+        std::memcpy(&result, to, sizeof result);
+        return result;
+    }
+#else
+    return Result::each([](From number) { return static_cast<To>(number); }, x);
+#endif
 }
 
 // Whether a mask, the bits of which are integers, is set in any lane.
