@@ -17,18 +17,18 @@ namespace lumis::detail {
 template <class T>
 inline constexpr std::size_t lanes_of_part = LUMIS_VECTOR_BYTES / sizeof(T);
 template <class T>
-using Part = typename RegisterOf<T, lanes_of_part<T>>::type;
+using Register = typename RegisterOf<T, lanes_of_part<T>>::type;
 #else
 template <class T>
 inline constexpr std::size_t lanes_of_part = 1;
 template <class T>
-using Part = T;
+using Register = T;
 #endif
 
 template <class T, std::size_t N>
 struct Array {
     static constexpr std::size_t size = N / lanes_of_part<T>;
-    Part<T> parts[size];
+    Register<T> parts[size];
 
     [[nodiscard]] LUMIS_INLINE T operator[](std::size_t i) const noexcept {
 #ifdef LUMIS_HAS_VECTORS
@@ -93,9 +93,9 @@ struct Array {
     LUMIS_INLINE static Array of_parts(F part, std::index_sequence<I...>) noexcept {
         return {{part(I)...}};
     }
-    LUMIS_INLINE static Part<BitsOf<T>> as_mask(auto comparison) noexcept {
+    LUMIS_INLINE static Register<BitsOf<T>> as_mask(auto comparison) noexcept {
 #ifdef LUMIS_HAS_VECTORS
-        return reinterpret_cast<Part<BitsOf<T>>>(comparison);
+        return reinterpret_cast<Register<BitsOf<T>>>(comparison);
 #else
         return comparison ? -1 : 0;
 #endif

@@ -38,7 +38,7 @@ template <class V, class T>
     if constexpr (std::same_as<V, T>) {
         return x;
     } else if constexpr (IsArray<V>) {
-        return V::each([x] { return everywhere<Part<T>>(x); });
+        return V::each([x] { return everywhere<Register<T>>(x); });
     } else {
         return x - V{};  // 0 is taken off because it changes no x, -0 included
     }
