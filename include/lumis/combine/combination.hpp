@@ -24,18 +24,28 @@ namespace lumis {
 namespace detail {
 
 // The uniforms that S spends on a sample.
-template <class S, class U>
-[[nodiscard]] LUMIS_INLINE constexpr UniformsOf<S> next_for(U& uniforms) {
-    return UniformsOf<S>(uniforms.template next<S::dimensions>());
+template <class S, Real R, class U>
+[[nodiscard]] LUMIS_INLINE constexpr glm::vec<S::dimensions, R> next_for(U& uniforms) {
+    return glm::vec<S::dimensions, R>(uniforms.template next<S::dimensions>());
 }
 
 // The value over a divisor. A number is divided, which rounds once; other values need only scale.
-template <class Value, std::floating_point T>
-[[nodiscard]] LUMIS_HD constexpr auto quotient(const Value& value, T divisor) {
-    if constexpr (std::same_as<Value, T>) {
+template <class Value, Real R>
+[[nodiscard]] LUMIS_HD constexpr auto quotient(const Value& value, R divisor) {
+    if constexpr (std::same_as<Value, R>) {
         return value / divisor;
     } else {
-        return value * (1 / divisor);
+        return value * R(1 / divisor);
+    }
+}
+
+// A divisor that is positive where the condition holds. A number's condition does.
+template <Real R>
+[[nodiscard]] LUMIS_INLINE constexpr R positive_divisor([[maybe_unused]] const MaskOf<R>& condition, R x) noexcept {
+    if constexpr (std::floating_point<R>) {
+        return x;
+    } else {
+        return real::divisor_where(condition, x);
     }
 }
 
@@ -44,7 +54,9 @@ template <class... S>
 inline constexpr std::size_t number_of_smooth = (std::size_t{!DeltaStrategy<std::remove_cvref_t<S>>} + ... + 0);
 
 template <class H, std::size_t N, class S>
-concept Weighs = Heuristic<H, typename S::Scalar, typename S::Point, N>;
+concept Weighs = Heuristic < H,
+        scalar_of<typename S::Scalar>,
+typename S::Point, N > ;
 
 // Where a single strategy has a density, its weight is 1 and no heuristic is asked; a technique is none even so.
 template <class H>
@@ -67,6 +79,7 @@ template <class H, class First, class... Rest>
 concept HeuristicFor =
     detail::Weighs<H, 1 + sizeof...(Rest), std::remove_cvref_t<First>> || detail::NeverAsked<H, First, Rest...>;
 
+// Densities and weights are asked for at a point of the strategies' or, with Lanes of Scalar, at several at once.
 template <class H, class First, class... Rest>
     requires Composable<First, Rest...>
 class Combination {
@@ -79,15 +92,22 @@ class Combination {
 
     // The effective densities factor_i p_i(x). A technique whose factor is 0 is not asked for its density.
     [[nodiscard]] LUMIS_HD std::array<Scalar, size> densities(const Point& x) const noexcept {
-        std::array<Scalar, size> result{};
-        detail::for_each_index<size>([&](auto i) { result[i] = density<i>(x); });
-        return result;
+        return densities_in<Scalar>(x);
+    }
+    template <detail::PointInLanes<S0> X>
+    [[nodiscard]] LUMIS_HD auto densities(const X& x) const noexcept {
+        return densities_in<typename detail::RealAt<S0, X>::type>(x);
     }
 
     // The weight of technique I at a point.
     template <std::size_t I>
     [[nodiscard]] LUMIS_HD Scalar weight(const Point& x) const noexcept {
-        return weight_given<I>(x, [&] { return density<I>(x); });
+        return weight_given<I, Scalar>(x, [&] { return density<I, Scalar>(x); });
+    }
+    template <std::size_t I, detail::PointInLanes<S0> X>
+    [[nodiscard]] LUMIS_HD auto weight(const X& x) const noexcept {
+        using R = typename detail::RealAt<S0, X>::type;
+        return weight_given<I, R>(x, [&] { return density<I, R>(x); });
     }
 
     template <std::size_t I>
@@ -96,111 +116,153 @@ class Combination {
     }
 
   protected:
+    template <std::size_t I>
+    using Nth = typename detail::NthStrategy<I, First, Rest...>::type;
+
     // Moves each strategy once, out of the Take or Choose that holds it: some are large, and a renderer composes an
     // estimator at every point that it lights.
     template <class... Techniques>
     LUMIS_HD constexpr Combination(const H& heuristic, std::array<Scalar, size> factors, Techniques&&... techniques)
         : heuristic_{heuristic}, factors_{factors}, strategies_{{std::forward<Techniques>(techniques).strategy}...} {}
 
-    // What one sample of technique I adds to an estimate of the integral of f: weight f / (factor_I pdf).
-    template <std::size_t I, class F, class U>
-    [[nodiscard]] LUMIS_HD auto draw(F& f, U& uniforms) const {
+    // What one sample of technique I, drawn from u, adds to an estimate of the integral of f: weight f / (factor_I pdf).
+    // In lanes: where `selected` holds, 0 elsewhere.
+    template <std::size_t I, Real R, class F>
+    [[nodiscard]] LUMIS_INLINE auto draw(F& f, const glm::vec<Nth<I>::dimensions, R>& u,
+                                         const MaskOf<R>& selected = true) const {
         using S = Nth<I>;
-        if constexpr (Takes<F, Point, is_delta<I>> && detail::SamplesPoints<S>) {
-            return contribution<I>(f, strategy<I>().sample_point(detail::next_for<S>(uniforms)));
+        if constexpr (takes_point<F, R, is_delta<I>> && detail::SamplesPoints<S>) {
+            return contribution<I, R>(f, detail::sample_point_in<R>(strategy<I>(), u), selected);
+        } else if constexpr (std::same_as<R, Scalar>) {
+            return contribution<I, R>(f, detail::as_promised<Point, Scalar>(strategy<I>().sample(u)), selected);
         } else {
-            return contribution<I>(
-                f, detail::as_promised<Point, Scalar>(strategy<I>().sample(detail::next_for<S>(uniforms))));
+            return contribution<I, R>(f, detail::sample_in<R>(strategy<I>(), u), selected);
         }
     }
 
-    // The same, converted to Value, the type of technique 0's.
-    template <class Value, std::size_t I, class F, class U>
-    [[nodiscard]] LUMIS_HD Value draw_as(F& f, U& uniforms) const {
-        static_assert(std::convertible_to<decltype(draw<I>(f, uniforms)), Value>,
+    // Converts a contribution to the type of technique 0's.
+    template <class Value, class Drawn>
+    [[nodiscard]] LUMIS_INLINE static Value as_value(const Drawn& drawn) {
+        static_assert(std::convertible_to<Drawn, Value>,
                       "an integrand returns one type, whichever technique drew its point");
-        return Value(draw<I>(f, uniforms));
+        return Value(drawn);
     }
 
     [[nodiscard]] LUMIS_HD constexpr Scalar factor(std::size_t i) const noexcept { return factors_[i]; }
 
   private:
     template <std::size_t I>
-    using Nth = typename detail::NthStrategy<I, First, Rest...>::type;
-    template <std::size_t I>
     static constexpr bool is_delta = DeltaStrategy<Nth<I>>;
     static constexpr std::size_t number_of_smooth = detail::number_of_smooth<First, Rest...>;
 
+    // An integrand in lanes takes a point in lanes; any other is called with one.
+    template <class F, class R, bool is_delta>
+    static constexpr bool takes_point =
+        Takes<F, Point, is_delta> || Takes<F, typename detail::PointIn<Point, Scalar, R>::type, is_delta>;
+
     // Evaluates f where its weight is positive. A delta strategy's sample, and that of the only strategy with a density, has
-    // weight 1.
-    template <std::size_t I, class F, class Drawn>
-    [[nodiscard]] LUMIS_INLINE auto contribution(F& f, const Drawn& sample) const {
-        constexpr bool only_point = Takes<F, Point, is_delta<I>>;
-        using Seen = std::remove_cvref_t<decltype(seen<I, only_point>(sample))>;
-        if constexpr (!IntegrandOfSamples<F, Seen, Scalar, is_delta<I>>) {
-            detail::require_integrand<F, Seen, Scalar, is_delta<I>>();
-            return Scalar{};
+    // weight 1. Lanes are evaluated all, if any of them has a weight.
+    template <std::size_t I, Real R, class F, class Drawn>
+    [[nodiscard]] LUMIS_INLINE auto contribution(F& f, const Drawn& sample,
+                                                 [[maybe_unused]] const MaskOf<R>& selected) const {
+        constexpr bool only_point = takes_point<F, R, is_delta<I>>;
+        using Seen = std::remove_cvref_t<decltype(seen<I, only_point, R>(sample))>;
+        using Asked = detail::Asked<F, Seen, R, is_delta<I>>;
+        if constexpr (!IntegrandOfSamples<F, typename Asked::Sample, typename Asked::Scalar, is_delta<I>>) {
+            detail::require_integrand<F, typename Asked::Sample, typename Asked::Scalar, is_delta<I>>();
+            return R{};
         } else {
-            using Value = detail::ScaledBy<detail::ResultOf<F, Seen, is_delta<I>>, Scalar>;
-            const Scalar own = factors_[I] * sample.pdf;
-            if (!(own > 0)) return Value{};
+            const R own = factors_[I] * sample.pdf;
+            auto drawn = own > 0;
+            if constexpr (!std::floating_point<R>) drawn = drawn && selected;
+            using Value = std::remove_cvref_t<
+                decltype(detail::evaluate_in<is_delta<I>, R>(f, seen<I, only_point, R>(sample), drawn) * own)>;
+            if (!real::any(drawn)) return Value{};
+            const R divisor = detail::positive_divisor(drawn, own);
             if constexpr (is_delta<I> || number_of_smooth == 1) {
-                const auto& whole = seen<I, only_point>(sample);
-                return Value(detail::quotient(detail::evaluate<is_delta<I>>(f, whole), own));
+                const auto& whole = seen<I, only_point, R>(sample);
+                return detail::selected(
+                    drawn, Value(detail::quotient(detail::evaluate_in<is_delta<I>, R>(f, whole, drawn), divisor)));
             } else {
-                const Scalar weight = weight_given<I>(sample.value, [&] { return own; });
+                const R weight = weight_given<I, R>(sample.value, [&] { return weighed(drawn, own); });
                 if constexpr (!detail::AlwaysPositive<H>) {
-                    if (!(weight > 0)) return Value{};
+                    drawn = drawn && weight > 0;
+                    if (!real::any(drawn)) return Value{};
                 }
-                const auto& whole = seen<I, only_point>(sample);
-                return Value(detail::evaluate<false>(f, whole) * (weight / own));
+                const auto& whole = seen<I, only_point, R>(sample);
+                return detail::selected(drawn,
+                                        Value(detail::evaluate_in<false, R>(f, whole, drawn) * R(weight / divisor)));
             }
+        }
+    }
+
+    // The effective density with which a point was drawn: 0 in lanes in which none was.
+    template <Real R>
+    [[nodiscard]] LUMIS_INLINE static R weighed([[maybe_unused]] const MaskOf<R>& drawn, R own) noexcept {
+        if constexpr (std::floating_point<R>) {
+            return own;
+        } else {
+            return real::select(drawn, own, scalar_of<R>(0));
         }
     }
 
     // A sample of technique I as an integrand sees it. Where lights are combined it has the distance to the nearest of
     // them, whichever technique drew it and whatever the counts: the integrand is the same function for all.
-    template <std::size_t I, bool only_point, class Drawn>
+    template <std::size_t I, bool only_point, Real R, class Drawn>
     [[nodiscard]] LUMIS_HD decltype(auto) seen(const Drawn& sample) const noexcept {
         constexpr bool is_delta_light = is_delta<I> && detail::DrawsDistance<Nth<I>>;
         if constexpr (only_point || size == 1 || is_delta_light) {
             return (sample);
         } else if constexpr (detail::KnowNearest<S0, std::remove_cvref_t<Rest>...>) {
-            const Scalar own = detail::own_distance<Scalar>(sample);
+            const R own = detail::own_distance<R>(sample);
             return detail::with_distance(sample, detail::nearest_along<I>(strategies_, sample.value, own));
         } else if constexpr (detail::DrawsDistance<Nth<I>>) {
-            return Sample<Point, Scalar>{sample.value, sample.pdf};
+            return Sample<std::remove_cvref_t<decltype(sample.value)>, R>{sample.value, sample.pdf};
         } else {
             return (sample);
         }
     }
 
-    template <std::size_t I>
-    [[nodiscard]] LUMIS_HD Scalar density(const Point& x) const noexcept {
+    template <Real R, class X>
+    [[nodiscard]] LUMIS_HD std::array<R, size> densities_in(const X& x) const noexcept {
+        std::array<R, size> result{};
+        detail::for_each_index<size>([&](auto i) { result[i] = density<i, R>(x); });
+        return result;
+    }
+
+    template <std::size_t I, Real R, class X>
+    [[nodiscard]] LUMIS_HD R density(const X& x) const noexcept {
         if constexpr (is_delta<I>) {
-            return 0;
+            return R(scalar_of<R>(0));
         } else {
-            return factors_[I] > 0 ? factors_[I] * static_cast<Scalar>(strategy<I>().pdf(x)) : Scalar(0);
+            return real::any(factors_[I] > 0) ? R(factors_[I] * detail::pdf_in<R>(strategy<I>(), x))
+                                              : R(scalar_of<R>(0));
         }
     }
 
     // The weight of technique I at x. own() is technique I's effective density there: a caller that has drawn x knows it.
-    template <std::size_t I, class Own>
-    [[nodiscard]] LUMIS_HD Scalar weight_given(const Point& x, Own own) const noexcept {
+    template <std::size_t I, Real R, class X, class Own>
+    [[nodiscard]] LUMIS_HD R weight_given(const X& x, Own own) const noexcept {
+        using T = scalar_of<R>;
         if constexpr (number_of_smooth == 1 && !is_delta<I>) {
-            return own() > 0 ? Scalar(1) : Scalar(0);
+            return real::select(own() > 0, R(T(1)), T(0));
         } else if constexpr (PointHeuristic<H, Point>) {
-            return heuristic_.owns(I, x) ? Scalar(1) : Scalar(0);
+            const auto weight = [&](const auto& at) { return heuristic_.owns(I, at) ? T(1) : T(0); };
+            if constexpr (std::floating_point<R>) {
+                return weight(x);
+            } else {
+                return detail::each_lane<R>(weight, x);
+            }
         } else {
-            std::array<Scalar, size> q{};
+            std::array<R, size> q{};
             detail::for_each_index<size>([&](auto k) {
                 if constexpr (k == I) {
                     q[k] = own();
                 } else {
-                    q[k] = density<k>(x);
+                    q[k] = density<k, R>(x);
                 }
             });
-            return detail::weigh(heuristic_, I, std::span<const Scalar, size>{q});
+            return detail::weigh(heuristic_, I, std::span<const R, size>{q});
         }
     }
 

@@ -122,9 +122,8 @@ template <Real R, std::size_t N, class H>
 [[nodiscard]] LUMIS_NOINLINE R weight_lane_by_lane(const H& heuristic, std::size_t own, std::span<const R, N> densities,
                                                    MaskOf<R> settled, R weights) noexcept {
     using T = scalar_of<R>;
-    const R is_settled = real::select(settled, R(T(1)), R(T(0)));
     for (std::size_t lane = 0; lane < R::size; ++lane) {
-        if (is_settled[lane] > 0) continue;
+        if (settled[lane]) continue;
         std::array<T, N> alone;
         for_each_index<N>([&](auto k) { alone[k] = densities[k][lane]; });
         weights.set(lane, static_cast<T>(heuristic(own, std::span<const T, N>{alone})));

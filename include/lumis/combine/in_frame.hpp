@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lumis/core/detail/held.hpp"
+#include "lumis/core/detail/in_lanes.hpp"
 #include "lumis/core/frame.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
@@ -29,7 +30,7 @@ class InFrame {
 
     template <RealOf<Scalar> R = Scalar>
     [[nodiscard]] LUMIS_HD auto sample(glm::vec<dimensions, R> u) const noexcept {
-        auto drawn = detail::as_promised<Direction<R>, R>(local_.sample(u));
+        auto drawn = detail::sample_in<R>(local_, u);
         const Direction<R> w = frame_.to_world(drawn.value);
         const auto finite = all_finite(w);
         drawn.value.x = real::select(finite, w.x, 0);
@@ -41,12 +42,12 @@ class InFrame {
 
     template <RealOf<Scalar> R = Scalar>
     [[nodiscard]] LUMIS_HD R pdf(const Direction<R>& w) const noexcept {
-        return static_cast<R>(local_.pdf(frame_.to_local(w)));
+        return detail::pdf_in<R>(local_, frame_.to_local(w));
     }
 
     template <RealOf<Scalar> R = Scalar>
     [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept requires LightStrategy<Local> {
-        return local_.distance_along(frame_.to_local(w));
+        return detail::distance_in<R>(local_, frame_.to_local(w));
     }
 
     [[nodiscard]] LUMIS_HD UniformsOf<Local> invert(const Point& w) const noexcept requires InvertibleStrategy<Local> {

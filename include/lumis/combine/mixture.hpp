@@ -6,6 +6,7 @@
 #include "lumis/combine/detail/parts.hpp"
 #include "lumis/combine/technique.hpp"
 #include "lumis/core/detail/for_each_index.hpp"
+#include "lumis/core/detail/in_lanes.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/strategy.hpp"
@@ -50,71 +51,141 @@ class Mixture {
           parts_{{std::forward<First>(first.strategy)}, {std::forward<Rest>(rest.strategy)}...} {}
 
     // u.x selects the part, which gets the other numbers: stretching u.x for it would leave a rare part few bits.
+    // In lanes each selects its own; a part that some lane selected is drawn for all.
     [[nodiscard]] LUMIS_HD SampleType sample(glm::vec<dimensions, Scalar> u) const noexcept {
         return draw<SampleType>(u);
+    }
+    template <RealOf<Scalar> R>
+        requires(!std::same_as<R, Scalar>)
+    [[nodiscard]] LUMIS_HD auto sample(const glm::vec<dimensions, R>& u) const noexcept {
+        return draw_lanes<SampleIn<R, knows_nearest>>(u);
     }
 
     // The same but for the distance, which asks every light for its own.
     [[nodiscard]] LUMIS_HD Sample<Point, Scalar> sample_point(glm::vec<dimensions, Scalar> u) const noexcept {
         return draw<Sample<Point, Scalar>>(u);
     }
+    template <RealOf<Scalar> R>
+        requires(!std::same_as<R, Scalar>)
+    [[nodiscard]] LUMIS_HD auto sample_point(const glm::vec<dimensions, R>& u) const noexcept {
+        return draw_lanes<SampleIn<R, false>>(u);
+    }
 
-    [[nodiscard]] LUMIS_HD Scalar pdf(const Point& x) const noexcept {
-        Scalar sum = 0;
-        detail::for_each_index<size>([&](auto i) {
-            if (probabilities_[i] > 0) sum += probabilities_[i] * static_cast<Scalar>(detail::part<i>(parts_).pdf(x));
-        });
-        return density_or_zero(sum);
+    [[nodiscard]] LUMIS_HD Scalar pdf(const Point& x) const noexcept { return density<Scalar>(x); }
+    template <detail::PointInLanes<Mixture> X>
+    [[nodiscard]] LUMIS_HD auto pdf(const X& x) const noexcept {
+        return density<typename detail::RealAt<Mixture, X>::type>(x);
     }
 
     // To the nearest light, parts of probability 0 included; infinity where there is none.
     [[nodiscard]] LUMIS_HD Scalar distance_along(const Point& w) const noexcept requires knows_nearest {
-        return detail::nearest_along(parts_, w, std::numeric_limits<Scalar>::infinity());
+        return nearest<Scalar>(w);
+    }
+    template <detail::PointInLanes<Mixture> X>
+    requires knows_nearest [[nodiscard]] LUMIS_HD auto distance_along(const X& w) const noexcept {
+        return nearest<typename detail::RealAt<Mixture, X>::type>(w);
     }
 
   private:
-    template <int N>
-    LUMIS_HD static glm::vec<N, Scalar> without_first(glm::vec<dimensions, Scalar> u) noexcept {
-        glm::vec<N, Scalar> rest;
+    template <Real R>
+    using PointAt = typename detail::PointIn<Point, Scalar, R>::type;
+    template <Real R, bool with_distance>
+    using SampleIn = std::conditional_t<with_distance, LightSample<PointAt<R>, R>, Sample<PointAt<R>, R>>;
+    template <std::size_t I>
+    using Nth = typename detail::NthStrategy<I, First, Rest...>::type;
+
+    template <Real R>
+    [[nodiscard]] LUMIS_HD R density(const PointAt<R>& x) const noexcept {
+        R sum = scalar_of<R>(0);
+        detail::for_each_index<size>([&](auto i) {
+            if (real::any(probabilities_[i] > 0))
+                sum += probabilities_[i] * detail::pdf_in<R>(detail::part<i>(parts_), x);
+        });
+        return density_or_zero(sum);
+    }
+
+    template <Real R>
+    [[nodiscard]] LUMIS_HD R nearest(const PointAt<R>& w) const noexcept {
+        return detail::nearest_along(parts_, w, R(std::numeric_limits<scalar_of<R>>::infinity()));
+    }
+
+    template <int N, Real R>
+    LUMIS_HD static glm::vec<N, R> without_first(const glm::vec<dimensions, R>& u) noexcept {
+        glm::vec<N, R> rest;
         for (int i = 0; i < N; ++i) rest[i] = u[i + 1];
         return rest;
     }
 
     // Result: with a distance, or without.
     template <class Result>
-    [[nodiscard]] LUMIS_HD Result draw(glm::vec<dimensions, Scalar> u) const noexcept {
+    [[nodiscard]] LUMIS_HD Result draw(const glm::vec<dimensions, Scalar>& u) const noexcept {
+        if constexpr (!std::floating_point<Scalar>) {
+            return draw_lanes<Result>(u);
+        } else {
+            Result result{};
+            Scalar remaining = u.x;
+            bool selected = false;
+            detail::for_each_index<size>([&](auto i) {
+                if (!selected && remaining < probabilities_[i]) {
+                    selected = true;
+                    const auto drawn = draw_part<i, Result>(u);
+                    if (!(drawn.pdf > 0)) return;
+                    result.value = Point(drawn.value);
+                    result.pdf = pdf(result.value);
+                    if constexpr (detail::HasDistance<Result>) {
+                        result.distance =
+                            detail::nearest_along<i>(parts_, result.value, detail::own_distance<Scalar>(drawn));
+                    }
+                }
+                remaining -= probabilities_[i];
+            });
+            return result;
+        }
+    }
+
+    template <class Result, Real R>
+    [[nodiscard]] LUMIS_HD Result draw_lanes(const glm::vec<dimensions, R>& u) const noexcept {
         Result result{};
-        Scalar remaining = u.x;
-        bool selected = false;
+        std::array<MaskOf<R>, size> drawn_by;
+        R remaining = u.x, distance = std::numeric_limits<scalar_of<R>>::infinity();
+        MaskOf<R> open = true, any_drawn = false;
         detail::for_each_index<size>([&](auto i) {
-            if (!selected && remaining < probabilities_[i]) {
-                selected = true;
-                result = draw_part<i, Result>(u);
+            const MaskOf<R> selected = open && remaining < probabilities_[i];
+            drawn_by[i] = false;
+            if (real::any(selected)) {
+                const auto drawn = draw_part<i, Result>(u);
+                drawn_by[i] = selected && drawn.pdf > 0;
+                any_drawn = any_drawn || drawn_by[i];
+                open = open && !selected;
+                result.value = detail::select_point(drawn_by[i], drawn.value, result.value);
+                distance = real::select(drawn_by[i], detail::own_distance<R>(drawn), distance);
             }
             remaining -= probabilities_[i];
         });
+        result.pdf = real::select(any_drawn, density<R>(result.value), scalar_of<R>(0));
+        if constexpr (detail::HasDistance<Result>) {
+            result.distance = distance;
+            detail::for_each_index<size>([&](auto k) {
+                if constexpr (LightStrategy<Nth<k>>) {
+                    const R other = detail::distance_in<R>(detail::part<k>(parts_), result.value);
+                    result.distance = real::select(drawn_by[k], result.distance, real::lesser(result.distance, other));
+                }
+            });
+        }
         return result;
     }
 
-    template <std::size_t I, class Result>
-    [[nodiscard]] LUMIS_HD Result draw_part(glm::vec<dimensions, Scalar> u) const noexcept {
-        constexpr bool with_distance = std::same_as<Result, LightSample<Point, Scalar>>;
-        using Part = typename detail::NthStrategy<I, First, Rest...>::type;
-        const Part& part = detail::part<I>(parts_);
-        const auto drawn = [&] {
-            const auto rest = without_first<Part::dimensions>(u);
-            if constexpr (!with_distance && detail::SamplesPoints<Part>) {
-                return part.sample_point(rest);
-            } else {
-                return part.sample(rest);
-            }
-        }();
-        if (!(drawn.pdf > 0)) return {};
-        Result result{Point(drawn.value), pdf(drawn.value)};
-        if constexpr (with_distance) {
-            result.distance = detail::nearest_along<I>(parts_, drawn.value, detail::own_distance<Scalar>(drawn));
+    template <std::size_t I, class Result, Real R>
+    [[nodiscard]] LUMIS_HD auto draw_part(const glm::vec<dimensions, R>& u) const noexcept {
+        using Part = Nth<I>;
+        const auto rest = without_first<Part::dimensions>(u);
+        if constexpr (!detail::HasDistance<Result> && detail::SamplesPoints<Part>) {
+            return detail::sample_point_in<R>(detail::part<I>(parts_), rest);
+        } else if constexpr (std::same_as<R, Scalar>) {
+            return detail::part<I>(parts_).sample(rest);
+        } else {
+            return detail::sample_in<R>(detail::part<I>(parts_), rest);
         }
-        return result;
     }
 
     std::array<Scalar, size> probabilities_;

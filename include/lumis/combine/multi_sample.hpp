@@ -20,15 +20,32 @@ class MultiSample : public Combination<H, S...> {
     // An unbiased estimate of the integral of f. f(x) returns a number, a glm::vec, or any type that adds to itself and
     // scales by Scalar, and whose value-initialised object is zero. It may take the whole sample instead, f(sample),
     // if it cannot be called with the point alone; a delta strategy calls f(x, lumis::delta), with weight 1.
-    template <class F, UniformSource<Scalar> U>
+    //
+    // A source that yields Lanes of Scalar makes an estimate in each lane. f then gets points in lanes; one that is written
+    // for numbers is called for each lane. A type of one's own offers select(condition, a, b).
+    template <class F, class U>
+        requires UniformSource<U, RealFrom<U, Scalar>>
     [[nodiscard]] LUMIS_HD auto estimate(F&& f, U&& uniforms) const {
-        using Value = decltype(this->template draw<0>(f, uniforms));
+        using R = RealFrom<U, Scalar>;
+        using First = typename Base::template Nth<0>;
+        using Value = decltype(this->template draw<0, R>(f, detail::next_for<First, R>(uniforms)));
         Value sum{};
         detail::for_each_index<Base::size>([&](auto i) {
+            using Part = typename Base::template Nth<i>;
             for (int k = 0; k < counts_[i]; ++k) {
-                const Value value = this->template draw_as<Value, i>(f, uniforms);
+                const Value value =
+                    Base::template as_value<Value>(this->template draw<i, R>(f, detail::next_for<Part, R>(uniforms)));
                 sum = i == 0 && k == 0 ? value : Value(sum + value);
             }
+        });
+        return sum;
+    }
+
+    // What an estimate spends.
+    [[nodiscard]] LUMIS_HD constexpr std::size_t uniforms_per_estimate() const noexcept {
+        std::size_t sum = 0;
+        detail::for_each_index<Base::size>([&](auto i) {
+            sum += static_cast<std::size_t>(counts_[i]) * std::size_t{Base::template Nth<i>::dimensions};
         });
         return sum;
     }

@@ -19,21 +19,58 @@ class OneSample : public Combination<H, S...> {
 
     // An unbiased estimate of the integral of f, which is called as by MultiSample::estimate. Spends one uniform on the
     // selection, none if the only technique is certain.
-    template <class F, UniformSource<Scalar> U>
+    //
+    // In lanes each selects its own technique. Every technique that some lane selected is drawn and weighed for all lanes,
+    // from the same uniforms: as many as the technique that takes the most.
+    template <class F, class U>
+        requires UniformSource<U, RealFrom<U, Scalar>>
     [[nodiscard]] LUMIS_HD auto estimate(F&& f, U&& uniforms) const {
-        using Value = decltype(this->template draw<0>(f, uniforms));
+        using R = RealFrom<U, Scalar>;
+        using First = typename Base::template Nth<0>;
+        using Value = decltype(this->template draw<0, R>(f, detail::next_for<First, R>(uniforms)));
         Value result{};
-        const bool certain = Base::size == 1 && this->factor(0) >= 1;
-        Scalar remaining = certain ? Scalar(0) : glm::vec<1, Scalar>(uniforms.template next<1>()).x;
-        bool selected = false;
-        detail::for_each_index<Base::size>([&](auto i) {
-            if (!selected && remaining < this->factor(i)) {
-                selected = true;
-                result = this->template draw_as<Value, i>(f, uniforms);
-            }
-            remaining -= this->factor(i);
-        });
+        R remaining = is_certain() ? R(scalar_of<R>(0)) : glm::vec<1, R>(uniforms.template next<1>()).x;
+        if constexpr (std::floating_point<R>) {
+            bool selected = false;
+            detail::for_each_index<Base::size>([&](auto i) {
+                if (!selected && remaining < this->factor(i)) {
+                    using Part = typename Base::template Nth<i>;
+                    selected = true;
+                    result = Base::template as_value<Value>(
+                        this->template draw<i, R>(f, detail::next_for<Part, R>(uniforms)));
+                }
+                remaining -= this->factor(i);
+            });
+        } else {
+            const auto u = glm::vec<largest_dimensions, R>(uniforms.template next<largest_dimensions>());
+            MaskOf<R> open = true;
+            detail::for_each_index<Base::size>([&](auto i) {
+                const MaskOf<R> selected = open && remaining < this->factor(i);
+                if (real::any(selected)) {
+                    constexpr int dimensions = Base::template Nth<i>::dimensions;
+                    glm::vec<dimensions, R> own;
+                    for (int k = 0; k < dimensions; ++k) own[k] = u[k];
+                    // A lane has one contribution, all others are 0.
+                    result =
+                        Value(result + Base::template as_value<Value>(this->template draw<i, R>(f, own, selected)));
+                    open = open && !selected;
+                }
+                remaining -= this->factor(i);
+            });
+        }
         return result;
+    }
+
+    // What an estimate spends at most.
+    [[nodiscard]] LUMIS_HD constexpr std::size_t uniforms_per_estimate() const noexcept {
+        return std::size_t{!is_certain()} + std::size_t{largest_dimensions};
+    }
+
+  private:
+    static constexpr int largest_dimensions = real::largest_of(std::array{std::remove_cvref_t<S>::dimensions...});
+
+    [[nodiscard]] LUMIS_HD constexpr bool is_certain() const noexcept {
+        return Base::size == 1 && real::all(this->factor(0) >= 1);
     }
 };
 

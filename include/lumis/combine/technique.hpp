@@ -88,16 +88,18 @@ namespace detail {
 
 // Probabilities by which one can select, from what a caller gave. They are asserted to be those already. Else a negative
 // one and a NaN count as 0, and what is beyond a sum of 1 is cut off, so that each is selected as often as its density says.
-template <std::floating_point T, std::size_t N>
-[[nodiscard]] LUMIS_HD constexpr std::array<T, N> selectable(std::array<T, N> probabilities) noexcept {
+template <Real R, std::size_t N>
+[[nodiscard]] LUMIS_HD constexpr std::array<R, N> selectable(std::array<R, N> probabilities) noexcept {
+    using T = scalar_of<R>;
     constexpr T one =
         1 + static_cast<T>(N) * std::numeric_limits<T>::epsilon();  // those of ten equal parts sum to 1 + epsilon
-    T sum = 0;
-    for (T& probability : probabilities) {
-        LUMIS_ASSERT(probability >= 0);
-        probability = probability >= 0 ? probability : T(0);
-        LUMIS_ASSERT(sum + probability <= one);
-        if (!(sum + probability <= one)) probability = real::greater(1 - sum, T(0));
+    R sum = T(0);
+    for (R& probability : probabilities) {
+        LUMIS_ASSERT(real::all(probability >= 0));
+        probability = real::select(probability >= 0, probability, T(0));
+        LUMIS_ASSERT(real::all(sum + probability <= one));
+        if (!real::all(sum + probability <= one))
+            probability = real::select(sum + probability <= one, probability, real::greater(R(1 - sum), T(0)));
         sum += probability;
     }
     return probabilities;

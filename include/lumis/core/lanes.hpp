@@ -36,6 +36,7 @@ class LaneMask {
     // Whether it holds in every lane, and whether it holds in any.
     [[nodiscard]] LUMIS_INLINE bool all() const noexcept { return !(!*this).any(); }
     [[nodiscard]] LUMIS_INLINE bool any() const noexcept { return detail::any_set(v_); }
+    [[nodiscard]] LUMIS_INLINE bool operator[](std::size_t i) const noexcept { return v_[i] != 0; }
     [[nodiscard]] LUMIS_INLINE Vector vector() const noexcept { return v_; }
 
   private:

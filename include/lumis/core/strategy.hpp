@@ -65,6 +65,11 @@ concept LightStrategy = Strategy<S> && requires(const S light, typename S::Point
 
 namespace detail {
 
+template <class Drawn>
+concept HasDistance = requires(const Drawn drawn) {
+    drawn.distance;
+};
+
 template <class S>
 concept DrawsDistance = requires(const S strategy, UniformsOf<S> u) {
     strategy.sample(u).distance;

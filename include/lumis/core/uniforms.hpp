@@ -29,6 +29,24 @@ concept UniformSource = Real<T> && requires(U uniforms) {
     { uniforms.template next<4>() } -> std::convertible_to<glm::vec<4, T>>;
 };
 
+namespace detail {
+
+// The Real that a source yields to strategies of a Scalar: lanes where next<1>() is made of lanes of Scalar, else Scalar.
+template <class U, class Scalar>
+struct RealYielded : std::type_identity<Scalar> {};
+template <class U, class Scalar>
+    requires requires(U uniforms) {
+        { uniforms.template next<1>().x[0] } -> std::convertible_to<Scalar>;
+        requires RealOf<std::remove_cvref_t<decltype(uniforms.template next<1>().x)>, Scalar>;
+    }
+struct RealYielded<U, Scalar>
+    : std::type_identity<std::remove_cvref_t<decltype(std::declval<U&>().template next<1>().x)>> {};
+
+}  // namespace detail
+
+template <class U, class Scalar>
+using RealFrom = typename detail::RealYielded<std::remove_reference_t<U>, Scalar>::type;
+
 // A uniform is a point k / 2^digits of the lattice that T can hold evenly: 2^24 of them in float, 2^53 in double.
 template <FloatOrDouble T>
 inline constexpr int uniform_bits = std::numeric_limits<T>::digits;

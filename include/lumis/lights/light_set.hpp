@@ -7,12 +7,14 @@
 
 #include "lumis/core/assert.hpp"
 #include "lumis/core/detail/held.hpp"
+#include "lumis/core/detail/in_lanes.hpp"
 #include "lumis/core/detail/spannable.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/core/throw.hpp"
 #include "lumis/tables/alias_table.hpp"
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <limits>
@@ -85,7 +87,7 @@ class LightSet {
             const Selected drawn = sample_one(u);
             SampleType sample = drawn.sample;
             if (!(sample.pdf > 0)) return sample;
-            sample.pdf = density(sample.value, [&](std::size_t i, const Light& light) {
+            sample.pdf = density<Scalar>(sample.value, [&](std::size_t i, const Light& light) {
                 if constexpr (detail::DrawsDistance<Light>) {
                     if (i != drawn.index)
                         sample.distance = real::lesser(sample.distance, light.distance_along(sample.value));
@@ -95,23 +97,67 @@ class LightSet {
         }
     }
 
+    // In lanes each selects its own light and draws it alone; density and distance ask every light for all lanes at once.
+    template <RealOf<Scalar> R>
+        requires(!std::same_as<R, Scalar>)
+    [[nodiscard]] LUMIS_HD auto sample(const glm::vec<dimensions, R>& u) const noexcept {
+        std::array<std::size_t, R::size> selected;
+        auto result = detail::draw_each_lane<LightSet>(u, [&, lane = std::size_t{0}](const auto& alone) mutable {
+            const Selected drawn = sample_one(alone);
+            selected[lane++] = drawn.index;
+            if constexpr (detail::HasDistance<SampleType>) {
+                return drawn.sample;
+            } else {
+                return Sample<Point, Scalar>{Point(drawn.sample.value), static_cast<Scalar>(drawn.sample.pdf)};
+            }
+        });
+        const auto drawn = result.pdf > 0;
+        result.pdf = density<R>(result.value, [&](std::size_t i, const Light& light) {
+            if constexpr (detail::HasDistance<SampleType>) {
+                const R other = detail::distance_in<R>(light, result.value);
+                for (std::size_t lane = 0; lane < R::size; ++lane) {
+                    if (i != selected[lane] && other[lane] < result.distance[lane])
+                        result.distance.set(lane, other[lane]);
+                }
+            }
+        });
+        result.pdf = real::select(drawn, result.pdf, Scalar(0));
+        return result;
+    }
+
     // The same but for the distance.
     [[nodiscard]] LUMIS_HD Sample<Point, Scalar> sample_point(glm::vec<dimensions, Scalar> u) const noexcept {
         const auto drawn = sample_one(u).sample;
         return {Point(drawn.value), drawn.pdf > 0 ? pdf(drawn.value) : Scalar(0)};
     }
+    template <RealOf<Scalar> R>
+        requires(!std::same_as<R, Scalar>)
+    [[nodiscard]] LUMIS_HD auto sample_point(const glm::vec<dimensions, R>& u) const noexcept {
+        auto result = detail::draw_each_lane<LightSet>(u, [&](const auto& alone) {
+            const auto drawn = sample_one(alone).sample;
+            return Sample<Point, Scalar>{Point(drawn.value), static_cast<Scalar>(drawn.pdf)};
+        });
+        const R whole = density<R>(result.value, [](std::size_t, const Light&) {});
+        result.pdf = real::select(result.pdf > 0, whole, Scalar(0));
+        return result;
+    }
 
     [[nodiscard]] LUMIS_HD Scalar pdf(const Point& x) const noexcept {
-        return density(x, [](std::size_t, const Light&) {});
+        return density<Scalar>(x, [](std::size_t, const Light&) {});
+    }
+    template <detail::PointInLanes<LightSet> X>
+    [[nodiscard]] LUMIS_HD auto pdf(const X& x) const noexcept {
+        return density<typename detail::RealAt<LightSet, X>::type>(x, [](std::size_t, const Light&) {});
     }
 
     // To the nearest light of the set; infinity where there is none.
     [[nodiscard]] LUMIS_HD Scalar distance_along(const Point& w) const noexcept requires LightStrategy<Light> {
-        Scalar nearest = std::numeric_limits<Scalar>::infinity();
-        for (std::size_t i = 0; i < table_.size(); ++i) {
-            if (table_.pdf(i) > 0) nearest = real::lesser(nearest, light(i).distance_along(w));
-        }
-        return nearest;
+        return nearest<Scalar>(w);
+    }
+    template <detail::PointInLanes<LightSet> X>
+        requires LightStrategy<Light>
+    [[nodiscard]] LUMIS_HD auto distance_along(const X& w) const noexcept {
+        return nearest<typename detail::RealAt<LightSet, X>::type>(w);
     }
 
     // For hosts to which each light is an integral of its own, told apart from what another draws in the same direction:
@@ -165,21 +211,28 @@ class LightSet {
     }
 
     // The density of the whole set; visit(i, light) is called with each light that has a share in it.
-    template <class Visit>
-    [[nodiscard]] LUMIS_HD Scalar density(const Point& x, Visit visit) const noexcept {
-        Scalar sum = 0;
+    template <Real R, class X, class Visit>
+    [[nodiscard]] LUMIS_HD R density(const X& x, Visit visit) const noexcept {
+        R sum = scalar_of<R>(0);
         for (std::size_t i = 0; i < table_.size(); ++i) {
             if (!(table_.pdf(i) > 0)) continue;
             const auto& one = light(i);
-            sum += table_.pdf(i) * static_cast<Scalar>(one.pdf(x));
+            sum += table_.pdf(i) * detail::pdf_in<R>(one, x);
             visit(i, one);
         }
         return density_or_zero(sum);
     }
 
-    [[nodiscard]] LUMIS_HD decltype(auto) light(std::size_t index) const {
-        return detail::light_of(lights_, index);
+    template <Real R, class X>
+    [[nodiscard]] LUMIS_HD R nearest(const X& w) const noexcept {
+        R nearest = std::numeric_limits<scalar_of<R>>::infinity();
+        for (std::size_t i = 0; i < table_.size(); ++i) {
+            if (table_.pdf(i) > 0) nearest = real::lesser(nearest, detail::distance_in<R>(light(i), w));
+        }
+        return nearest;
     }
+
+    [[nodiscard]] LUMIS_HD decltype(auto) light(std::size_t index) const { return detail::light_of(lights_, index); }
 
     Lights lights_;
     Table table_;

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -32,6 +33,13 @@ class RunningMoments {
             mean_ = weighted_mean(mean_, count - 1, double{value}, 1);
         }
         squares_ += from_old_mean * real::rounded(double{value} - real::rounded(mean_));
+    }
+
+    // Each of several lanes, in their order.
+    template <class R>
+        requires(Real<R> && !std::floating_point<R> && std::convertible_to<scalar_of<R>, T>)
+    LUMIS_HD void add(const R& lanes) noexcept {
+        for (std::size_t i = 0; i < R::size; ++i) add(static_cast<T>(lanes[i]));
     }
 
     // As if everything added to `other` had been added here.
