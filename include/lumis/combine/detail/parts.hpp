@@ -11,21 +11,21 @@ namespace lumis::detail {
 
 // S may be a reference, see Held.
 template <std::size_t I, class S>
-struct Part {
+struct IndexedPart {
     [[no_unique_address]] S strategy;
 };
 
 template <class Indices, class... S>
 struct IndexedParts;
 template <std::size_t... I, class... S>
-struct IndexedParts<std::index_sequence<I...>, S...> : Part<I, S>... {};
+struct IndexedParts<std::index_sequence<I...>, S...> : IndexedPart<I, S>... {};
 
 // Made by {{first}, {second}, ...}.
 template <class... S>
 using Parts = IndexedParts<std::index_sequence_for<S...>, S...>;
 
 template <std::size_t I, class S>
-[[nodiscard]] LUMIS_INLINE constexpr const std::remove_reference_t<S>& part(const Part<I, S>& parts) noexcept {
+[[nodiscard]] LUMIS_INLINE constexpr const std::remove_reference_t<S>& part(const IndexedPart<I, S>& parts) noexcept {
     return parts.strategy;
 }
 
