@@ -73,7 +73,7 @@ class Chunk {
     template <class Lanes, class Point>
     [[nodiscard]] LUMIS_INLINE Lanes load_points(std::span<const Point> from) const {
         Lanes lanes{};
-        for (std::size_t i = 0; i < L::size; ++i) set_lane(lanes, i, from[first_ + (i < size() ? i : size() - 1)]);
+        for (std::size_t i = 0; i < L::size; ++i) put_lane(lanes, i, from[first_ + (i < size() ? i : size() - 1)]);
         return lanes;
     }
 

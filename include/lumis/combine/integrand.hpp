@@ -149,7 +149,7 @@ template <bool is_delta, Real R, class F, class Drawn>
                       "lanes of estimates are summed for integrands that take lanes, or return a number or a glm::vec");
         typename ValueIn<Value, R>::type result{};
         for (std::size_t i = 0; i < R::size; ++i) {
-            if (drawn[i]) set_lane(result, i, evaluate<is_delta>(f, lane_of_sample(sample, i)));
+            if (drawn[i]) put_lane(result, i, evaluate<is_delta>(f, lane_of_sample(sample, i)));
         }
         return result;
     }

@@ -59,7 +59,7 @@ template <int N, class L, glm::qualifier Q>
     return result;
 }
 template <class L, class X>
-LUMIS_INLINE inline void set_lane(L& lanes, std::size_t i, const X& x) noexcept {
+LUMIS_INLINE inline void put_lane(L& lanes, std::size_t i, const X& x) noexcept {
     if constexpr (Real<L>) {
         lanes.set(i, static_cast<scalar_of<L>>(x));
     } else {
@@ -67,7 +67,7 @@ LUMIS_INLINE inline void set_lane(L& lanes, std::size_t i, const X& x) noexcept 
     }
 }
 template <int N, class L, class T, glm::qualifier Q>
-LUMIS_INLINE inline void set_lane(glm::vec<N, L, Q>& lanes, std::size_t i, const glm::vec<N, T, Q>& x) noexcept {
+LUMIS_INLINE inline void put_lane(glm::vec<N, L, Q>& lanes, std::size_t i, const glm::vec<N, T, Q>& x) noexcept {
     for (int k = 0; k < N; ++k) lanes[k].set(i, static_cast<scalar_of<L>>(x[k]));
 }
 
@@ -132,9 +132,9 @@ template <class S, Real R, class Draw>
     std::conditional_t<has_distance, LightSample<PointOf<S, R>, R>, Sample<PointOf<S, R>, R>> result;
     for (std::size_t i = 0; i < R::size; ++i) {
         const auto drawn = draw(lane_of(u, i));
-        set_lane(result.value, i, typename S::Point(drawn.value));
-        set_lane(result.pdf, i, drawn.pdf);
-        if constexpr (has_distance) set_lane(result.distance, i, drawn.distance);
+        put_lane(result.value, i, typename S::Point(drawn.value));
+        put_lane(result.pdf, i, drawn.pdf);
+        if constexpr (has_distance) put_lane(result.distance, i, drawn.distance);
     }
     return result;
 }
