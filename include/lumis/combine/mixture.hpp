@@ -28,7 +28,7 @@ class Mixture {
 
     static constexpr std::size_t size = 1 + sizeof...(Rest);
     static constexpr int part_dimensions =
-        real::largest_of(std::array{std::remove_cvref_t<First>::dimensions, std::remove_cvref_t<Rest>::dimensions...});
+        real::largest_of(std::array<int, size>{std::remove_cvref_t<First>::dimensions, std::remove_cvref_t<Rest>::dimensions...});
 
   public:
     using Scalar = typename S0::Scalar;
