@@ -3,8 +3,8 @@
 
     snippets.py --pages <page>... --sources <file>...
 
-A block of a page that is fenced as cpp, or as text, has to be found in one of the sources: the same lines in a row, but for
-their common indentation. A snippet that is changed is therefore changed in both places.
+A block of a page that is fenced as cpp, as cuda, or as text, has to be found in one of the sources: the same lines in a
+row, but for their common indentation. A snippet that is changed is therefore changed in both places.
 """
 
 import argparse
@@ -15,7 +15,7 @@ import textwrap
 from pathlib import Path
 
 BLOCK = re.compile(r"^( *)```(\S*)\n(.*?)^\1```$", re.MULTILINE | re.DOTALL)
-CHECKED = {"cpp": (".cpp", ".hpp"), "text": (".txt",)}
+CHECKED = {"cpp": (".cpp", ".hpp"), "cuda": (".cu",), "text": (".txt",)}
 UNCHECKED = {"sh", "cmake"}  # commands: .ci/run and tests/consumer run the like
 
 

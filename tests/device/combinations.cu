@@ -1,0 +1,144 @@
+// Mixtures, light sets, heuristics and estimators on a CUDA device, and templates that only the host can call in the same
+// file.
+#include "compare.cuh"
+#include "uniforms.cuh"
+#include <lumis/lumis.hpp>
+
+#include <cstddef>
+#include <random>
+#include <span>
+#include <vector>
+
+namespace {
+
+using namespace lumis;
+using Light = AreaLight<Sphere<float>, BySolidAngle>;
+
+// What all estimators here are composed of.
+struct Parts {
+    EnvironmentMapView<float> sky;
+    AliasTableView<float> powers;
+    std::span<const Light> lights;
+    InFrame<GgxReflection<float>> bsdf;
+};
+
+// Weights of each heuristic for three densities.
+struct Heuristics {
+    static constexpr int size = 5;
+
+    LUMIS_HD void operator()(unsigned index, float* out) const {
+        device::Stream uniforms{index};
+        const glm::vec3 p = uniforms.next<3>();
+        out[0] = mis_weight(BalanceHeuristic{}, p.x, p.y, p.z);
+        out[1] = mis_weight(PowerHeuristic{}, p.x, p.y, p.z);
+        out[2] = mis_weight(PowerHeuristic{3.0f}, p.x, p.y, p.z);
+        out[3] = mis_weight(MaximumHeuristic{}, p.x, p.y, p.z);
+        out[4] = mis_weight(EqualWeights{}, p.x, p.y, p.z);
+    }
+};
+
+struct Mixtures {
+    static constexpr int size = 10;
+    Parts parts;
+
+    LUMIS_HD void operator()(unsigned index, float* out) const {
+        device::Stream uniforms{index};
+        const Mixture mixture{choose(0.25f, parts.sky), choose(0.75f, parts.bsdf)};
+        const LightSet set{parts.lights, parts.powers};
+        const auto a = mixture.sample(uniforms.next<3>());
+        const auto b = set.sample(uniforms.next<3>());
+        const float numbers[size] = {a.value.x,
+                                     a.value.y,
+                                     a.value.z,
+                                     a.pdf,
+                                     mixture.pdf(a.value),
+                                     b.value.x,
+                                     b.pdf,
+                                     b.distance,
+                                     set.pdf(b.value),
+                                     set.distance_along(a.value)};
+        for (int i = 0; i < size; ++i) out[i] = numbers[i] < 1e30f ? numbers[i] : -1;
+    }
+};
+
+struct Estimates {
+    static constexpr int size = 6;
+    Parts parts;
+
+    LUMIS_HD void operator()(unsigned index, float* out) const {
+        device::Stream uniforms{index};
+        const auto of_point = [](const glm::vec3& w) { return 1 + w.x * w.x; };
+        const auto of_sample = [](const AnySample auto& s) { return s.value.x * s.value.x; };
+        const auto in_color = [](const glm::vec3& w) { return glm::vec3{1, 2, 3} * (w.z > 0 ? w.z : 0.0f); };
+        const LightSet set{parts.lights, parts.powers};
+        const auto multi = multi_sample(PowerHeuristic{}, take(2, parts.bsdf), take(1, parts.sky), take(1, set));
+        const auto one = one_sample(BalanceHeuristic{}, choose(0.5f, parts.bsdf), choose(0.5f, parts.sky));
+        const auto alone = multi_sample(BalanceHeuristic{}, take(1, CosineHemisphere<float>{}));
+        const auto with_mirror = multi_sample(PowerHeuristic{}, take(1, PerfectReflection<float>{{0, 0, 1}}),
+                                              take(1, UniformHemisphere<float>{}));
+        RunningMoments<float> moments;
+        for (int i = 0; i < 8; ++i) moments.add(multi.estimate(of_point, uniforms));
+        const auto color = one.estimate(in_color, uniforms);
+        out[0] = static_cast<float>(moments.mean());
+        out[1] = multi.estimate(of_sample, uniforms);
+        out[2] = color.x + color.y + color.z;
+        out[3] = alone.estimate(of_point, uniforms);
+        out[4] = with_mirror.estimate([](const glm::vec3& w, auto...) { return w.z; }, uniforms);
+        out[5] = multi.weight<1>({0, 0.6f, 0.8f});
+    }
+};
+
+template <class Probe>
+constexpr bool composes_trivially = std::is_trivially_copyable_v<Probe>;
+static_assert(composes_trivially<decltype(multi_sample(PowerHeuristic{}, take(1, std::declval<Parts>().sky),
+                                                       take(1, CosineHemisphere<float>{})))>);
+static_assert(composes_trivially<decltype(Mixture{choose(0.5, std::declval<Parts>().sky),
+                                                  choose(0.5, CosineHemisphere<float>{})})>);
+static_assert(composes_trivially<LightSet<std::span<const Light>, AliasTableView<float>>>);
+
+// The host's own estimator with what no device has: an engine of the standard library, and a vector that grows.
+bool host_estimates(const EnvironmentMap<float>& sky, const AliasTable<float>& powers,
+                    const std::vector<Light>& lights) {
+    Uniforms uniforms{std::mt19937{5}};
+    std::vector<float> seen;
+    const LightSet set{lights, powers};
+    const auto direct = multi_sample(PowerHeuristic{}, take(1, sky), take(1, set), take(1, UniformSphere<float>{}));
+    float sum = 0;
+    for (int i = 0; i < 1000; ++i) {
+        sum += direct.estimate(
+            [&](const glm::vec3& w) {
+                seen.push_back(w.x);
+                return 1.0f;
+            },
+            uniforms);
+    }
+    const float error = sum / 1000 / 12.5663706f - 1;
+    return !seen.empty() && error * error <= 0.01f;
+}
+
+}  // namespace
+
+int main() {
+    std::mt19937 engine{1};
+    std::vector<float> luminance(64 * 32);
+    for (float& x : luminance) x = static_cast<float>(engine() % 1000);
+    const EnvironmentMap sky{64, 32, luminance};
+    const AliasTable powers{std::vector<float>{1, 2, 3}};
+    std::vector<Light> lights;
+    for (const float x : {-1.0f, 0.0f, 1.5f}) lights.emplace_back(Sphere<float>{{x, 1, 3}, 0.4f}, glm::vec3{0});
+    const Frame frame{glm::vec3{0, 0.6f, 0.8f}};
+    const auto bsdf = in_frame(frame, GgxReflection<float>{{0, 0.6f, 0.8f}, glm::vec2{0.3f}});
+    if (!host_estimates(sky, powers, lights)) {
+        std::puts("The host's estimate of 4 pi is wrong.");
+        return 1;
+    }
+    if (!device::is_present()) return device::skipped;
+
+    device::Copies copies;
+    const Parts here{sky.view(), powers.view(), lights, bsdf};
+    const Parts there{sky.view(copies), powers.view(copies), copies(std::span<const Light>{lights}), bsdf};
+    bool good = device::agrees("heuristics", Heuristics{}, Heuristics{});
+    good &= device::agrees("mixtures and light sets", Mixtures{here}, Mixtures{there});
+    good &= device::agrees("estimates", Estimates{here}, Estimates{there});
+    return good ? 0 : 1;
+}
