@@ -8,13 +8,22 @@
 //   LUMIS_HAS_BUILTIN(f)   whether the compiler has the built-in function f
 //   LUMIS_VECTOR(bytes)    in an alias of a number's type: a vector of them; only where LUMIS_HAS_VECTORS is defined. A host
 //                          that defines LUMIS_NO_VECTORS does without
+//   LUMIS_HAS_FENCE        whether __arithmetic_fence can be called
 //   LUMIS_VECTOR_BYTES     how large the machine's registers for vectors are
 //   LUMIS_HAS_EXCEPTIONS   defined unless exceptions are off (-fno-exceptions), see core/throw.hpp
+//   LUMIS_ISA              the inline namespace of all that Lumis defines: code for different machines has different names, so
+//                          that a program may hold both (docs/platforms.md)
 //   LUMIS_LIFETIME_BOUND   behind a parameter that a result refers to: clang++ warns where the result outlives it
 #pragma once
 
 #if defined(_MSVC_LANG) ? _MSVC_LANG < 202002L : __cplusplus < 202002L
 #error "Lumis is written in C++20: compile with -std=c++20 (g++, clang++, nvcc) or /std:c++20 (MSVC)"
+#endif
+
+// x87 keeps more digits than the type has, when it likes: what is written and what is computed with then differ.
+#if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ == 2 && !defined(LUMIS_ALLOW_X87)
+#error \
+    "Lumis computes in float and double as they are: add -msse2 -mfpmath=sse (32-bit x86), or define LUMIS_ALLOW_X87 to accept the x87's digits"
 #endif
 
 #ifdef __CUDACC__
@@ -41,6 +50,13 @@
 #define LUMIS_HAS_BUILTIN(name) __has_builtin(name)
 #else
 #define LUMIS_HAS_BUILTIN(name) 0
+#endif
+
+// clang++ says that it has __arithmetic_fence, and rejects it on other machines than these.
+#if defined(__clang__) && LUMIS_HAS_BUILTIN(__arithmetic_fence)
+#if defined(__x86_64__) || defined(__i386__) || (defined(__aarch64__) && __clang_major__ >= 19)
+#define LUMIS_HAS_FENCE
+#endif
 #endif
 
 // The vector extensions of g++ and clang++ (clang-cl too, which is no __GNUC__). nvcc's device code has none, and a type must

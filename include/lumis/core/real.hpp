@@ -73,8 +73,10 @@ template <class V>
 [[nodiscard]] LUMIS_INLINE constexpr V rounded(V x) noexcept {
 #if defined(__CUDA_ARCH__)
     // The device re-associates nothing.
-#elif defined(__clang__) && LUMIS_HAS_BUILTIN(__arithmetic_fence)
+#elif defined(LUMIS_HAS_FENCE)
     if (!std::is_constant_evaluated()) return __arithmetic_fence(x);
+#elif defined(__clang__) && (defined(__FAST_MATH__) || __FINITE_MATH_ONLY__)
+    if constexpr (sizeof(V) <= LUMIS_VECTOR_BYTES) return opaque(x);
 #elif defined(__GNUC__) && __GNUC__ >= 12 && __GCC_IEC_559 == 0
     if constexpr (!std::is_arithmetic_v<V> && sizeof(V) >= 16 && sizeof(V) <= LUMIS_VECTOR_BYTES) return opaque(x);
     if (!std::is_constant_evaluated()) return __builtin_assoc_barrier(x);

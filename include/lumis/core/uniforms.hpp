@@ -78,7 +78,7 @@ template <class G>
 concept RandomBitGenerator = std::invocable<G&> && std::unsigned_integral<std::invoke_result_t<G&>> && requires {
     { (G::min)() } -> std::same_as<std::invoke_result_t<G&>>;
     { (G::max)() } -> std::same_as<std::invoke_result_t<G&>>;
-    requires std::bool_constant<(G::min() < (G::max)())>::value;
+    requires std::bool_constant<((G::min)() < (G::max)())>::value;
 };
 
 // Any standard uniform random bit generator as a source. Uniforms{engine} draws from the caller's engine and advances

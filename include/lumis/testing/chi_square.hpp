@@ -170,7 +170,7 @@ template <Strategy S, class Point>
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
         const double count = samples * masses[cell].value;
         counts.emplace_back(count, observed[cell]);
-        const double excess = std::abs(observed[cell] - count) / std::sqrt(std::max(count, options.thinnest));
+        const double excess = std::abs(observed[cell] - count) / std::sqrt((std::max)(count, options.thinnest));
         if (excess > worst_excess) {
             worst = cell;
             worst_excess = excess;
