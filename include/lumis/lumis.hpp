@@ -40,6 +40,7 @@
 #include "lumis/statistics/running_moments.hpp"
 #include "lumis/tables/alias_table.hpp"
 #include "lumis/tables/piecewise_constant.hpp"
+#include "lumis/version.hpp"
 
 #ifdef __NVCC__
 #pragma nv_diagnostic pop

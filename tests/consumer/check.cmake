@@ -1,5 +1,6 @@
-# cmake -D ROUTE=<add_subdirectory or find_package> -D BINARY_DIR=<folder of its own>
-#       [-D GENERATOR=<generator>] [-D CXX_COMPILER=<compiler>] [-D glm_DIR=<GLM's package>] -P check.cmake
+# cmake -D ROUTE=<add_subdirectory, find_package or single_header> -D BINARY_DIR=<folder of its own>
+#       [-D GENERATOR=<generator>] [-D CXX_COMPILER=<compiler>] [-D CXX_FLAGS=<flags>] [-D glm_DIR=<GLM's package>]
+#       [-D PYTHON=<python3>] -P check.cmake
 # Builds and runs the project beside this file from nothing, so that no header of an earlier install is found.
 cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH tests)
 cmake_path(GET tests PARENT_PATH lumis)
@@ -10,6 +11,9 @@ if(GENERATOR)
 endif()
 if(CXX_COMPILER)
     list(APPEND options -D CMAKE_CXX_COMPILER=${CXX_COMPILER})
+endif()
+if(CXX_FLAGS)
+    list(APPEND options -D CMAKE_CXX_FLAGS=${CXX_FLAGS})
 endif()
 if(glm_DIR)
     list(APPEND options -D glm_DIR=${glm_DIR})
@@ -26,8 +30,11 @@ elseif(ROUTE STREQUAL "find_package")
     run(${CMAKE_COMMAND} -S ${lumis} -B ${BINARY_DIR}/lumis ${options})
     run(${CMAKE_COMMAND} --install ${BINARY_DIR}/lumis --prefix ${BINARY_DIR}/prefix)
     set(where -D CMAKE_PREFIX_PATH=${BINARY_DIR}/prefix)
+elseif(ROUTE STREQUAL "single_header")
+    run(${PYTHON} ${lumis}/cmake/single_header.py ${BINARY_DIR}/single/lumis/lumis.hpp)
+    set(where -D LUMIS_SINGLE_HEADER_DIR=${BINARY_DIR}/single)
 else()
-    message(FATAL_ERROR "ROUTE is ${ROUTE}: it must be add_subdirectory or find_package")
+    message(FATAL_ERROR "ROUTE is ${ROUTE}: it must be add_subdirectory, find_package or single_header")
 endif()
 
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${BINARY_DIR}/consumer ${options} ${where})

@@ -185,12 +185,47 @@ class Dispatch:
         return {line.split()[2] for line in lines if len(line.split()) == 3}
 
 
+@dataclasses.dataclass
+class SingleHeader:
+    name: str
+    compiler: list
+
+    def attempt(self, folder):
+        header = folder / "one" / "lumis" / "lumis.hpp"
+        run([sys.executable, ROOT / "cmake" / "single_header.py", header])
+        source = folder / "single.cpp"
+        source.write_text("#include <lumis/lumis.hpp>\n#include <lumis/lumis.hpp>\nlumis::NativeLanes<float> lanes;\n")
+        run([*self.compiler, "-std=c++20", f"-I{header.parent.parent}", *WARNINGS, "-fsyntax-only", source])
+        return "compiles"
+
+
+@dataclasses.dataclass
+class OlderStandard:
+    """Below C++20, the first error says so, whichever header comes first."""
+    name: str
+    compiler: list
+
+    def attempt(self, folder):
+        for header in ("lumis/lumis.hpp", "lumis/batch/batch.hpp", "lumis/core/platform.hpp"):
+            source = folder / "older.cpp"
+            source.write_text(f"#include <{header}>\n")
+            printed = run([*self.compiler, "-std=c++17", BASE[1], "-fsyntax-only", source], expected=1)
+            first = next(line for line in printed.splitlines() if "error" in line)
+            if "Lumis is written in C++20" not in first:
+                raise Failed(f"The first error of <{header}> in C++17 is {first}")
+        return "says so"
+
+
 PLACES = [
     WindowsNames("windows-names", ["g++"]),
     WithoutExceptions("without-exceptions/g++", ["g++"]),
     WithoutExceptions("without-exceptions/clang++", ["clang++"]),
     Dispatch("dispatch/g++", ["g++"]),
     Dispatch("dispatch/clang++", ["clang++"]),
+    SingleHeader("single-header/g++", ["g++"]),
+    SingleHeader("single-header/clang++", ["clang++"]),
+    OlderStandard("older-standard/g++", ["g++"]),
+    OlderStandard("older-standard/clang++", ["clang++"]),
     Place("no-vectors", ["g++"], ["-DLUMIS_NO_VECTORS"], []),
     Place("avx512/g++", ["g++"], ["-march=x86-64-v4"],
           [] if "avx512bw" in pathlib.Path("/proc/cpuinfo").read_text() else None),

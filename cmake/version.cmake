@@ -1,0 +1,15 @@
+# lumis_read_version(<variable> <header>): the version that the header's macros say.
+function(lumis_read_version variable header)
+    set(parts)
+    foreach(part IN ITEMS MAJOR MINOR PATCH)
+        file(STRINGS ${header} line REGEX "^#define LUMIS_VERSION_${part} [0-9]+$")
+        if(NOT line MATCHES "([0-9]+)$")
+            message(FATAL_ERROR "${header} does not define LUMIS_VERSION_${part} as a number")
+        endif()
+        list(APPEND parts ${CMAKE_MATCH_1})
+    endforeach()
+    list(JOIN parts . version)
+    set(${variable} ${version} PARENT_SCOPE)
+    # Another version is another project().
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
+endfunction()
