@@ -9,10 +9,10 @@
 
 #include <glm/geometric.hpp>
 
-#include <bit>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 
@@ -32,8 +32,14 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] LUMIS_HD T power_of_two(T x) noexcept {
     using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
-    constexpr auto exponent = std::bit_cast<Bits>(std::numeric_limits<T>::infinity());
-    return std::bit_cast<T>(std::bit_cast<Bits>(real::greater((std::numeric_limits<T>::min)(), x)) & exponent);
+    constexpr Bits sign = Bits{1} << (8 * sizeof(T) - 1),
+                   exponent = sign - (Bits{1} << (std::numeric_limits<T>::digits - 1));
+    T power = real::greater((std::numeric_limits<T>::min)(), x);
+    Bits bits;  // std::bit_cast is not in every standard library
+    std::memcpy(&bits, &power, sizeof bits);
+    bits &= exponent;
+    std::memcpy(&power, &bits, sizeof bits);
+    return power;
 }
 
 // Each difference as rounded: of two vectors nearly in line it is all that is left of their products.
