@@ -1,5 +1,15 @@
 // What a program compiles once for each kind of processor, as the function FUNCTION: batches, an estimate of direct light,
 // and tables. Returns a sum of what they yield.
+#include <lumis/core/platform.hpp>
+
+#include <concepts>
+
+// A host's own forward declaration.
+namespace lumis::inline LUMIS_ISA {
+template <std::floating_point T>
+class EnvironmentMap;
+}
+
 #include <lumis/batch/batch.hpp>
 #include <lumis/lumis.hpp>
 
