@@ -61,14 +61,14 @@ TEMPLATE_TEST_CASE("views draw and evaluate as their tables do", "[views]", floa
         [&] {
             return lumis::PiecewiseConstant2D<T>{37, 20, weights};
         },
-        4, {{T(-1), T(0)}, {T(0), T(0)}, {T(1), T(1)}});
+        5, {{T(-1), T(0)}, {T(0), T(0)}, {T(1), T(1)}});
     const std::vector<T> nothing(6);
     check_views<lumis::AliasTable<T>>([&] { return lumis::AliasTable<T>{nothing}; }, 1, {0, 7});
     check_views<lumis::PiecewiseConstant2D<T>>(
         [&] {
             return lumis::PiecewiseConstant2D<T>{3, 2, nothing};
         },
-        4, {{T(0), T(0)}});
+        5, {{T(0), T(0)}});
 }
 
 TEST_CASE("a view of a fine alias table draws as that does", "[views]") {
