@@ -215,9 +215,10 @@ class LightSet {
     [[nodiscard]] LUMIS_HD R density(const X& x, Visit visit) const noexcept {
         R sum = scalar_of<R>(0);
         for (std::size_t i = 0; i < table_.size(); ++i) {
-            if (!(table_.pdf(i) > 0)) continue;
+            const Scalar selected = table_.pdf(i);
+            if (!(selected > 0)) continue;
             const auto& one = light(i);
-            sum += table_.pdf(i) * detail::pdf_in<R>(one, x);
+            sum += selected * detail::pdf_in<R>(one, x);
             visit(i, one);
         }
         return density_or_zero(sum);

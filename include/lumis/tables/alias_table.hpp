@@ -44,7 +44,7 @@ class BasicAliasTable {
     }
 
     [[nodiscard]] LUMIS_HD T pdf(Point index) const noexcept {
-        return index < size() ? static_cast<T>(table_.counts(0, index)) * probability_of_count_ : T(0);
+        return index < size() ? static_cast<T>(table_.counts_unguessed(0, index)) * probability_of_count_ : T(0);
     }
 
   protected:

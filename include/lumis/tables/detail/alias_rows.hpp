@@ -105,10 +105,19 @@ class AliasRows {
                 real::divide(static_cast<T>(place - begin) + within, static_cast<T>(end - begin))};
     }
 
-    // The number of counts of an entry.
+    // The number of counts of an entry. A branch on its kind, which processors guess where neighbours are mostly of one: in
+    // an environment map.
     [[nodiscard]] LUMIS_HD std::uint32_t counts(std::size_t row, std::size_t i) const noexcept {
         const AliasBin bin = bins_[row * entries_ + i];
         return bin.is_light() ? bin.own_and_alias & own_mask() : bin.heavy_counts();
+    }
+
+    // The same without a branch, for weights in no order: half of the guesses would be wrong, which takes g++'s branch from 1
+    // to 5 ns.
+    [[nodiscard]] LUMIS_HD std::uint32_t counts_unguessed(std::size_t row, std::size_t i) const noexcept {
+        const AliasBin bin = bins_[row * entries_ + i];
+        const std::uint32_t own = bin.own_and_alias & own_mask(), heavy = bin.heavy_counts();
+        return heavy ^ ((heavy ^ own) & (0 - std::uint32_t{bin.is_light()}));
     }
 
   private:
