@@ -27,8 +27,8 @@ class Mixture {
     static constexpr bool knows_nearest = detail::KnowNearest<S0, std::remove_cvref_t<Rest>...>;
 
     static constexpr std::size_t size = 1 + sizeof...(Rest);
-    static constexpr int part_dimensions =
-        real::largest_of(std::array<int, size>{std::remove_cvref_t<First>::dimensions, std::remove_cvref_t<Rest>::dimensions...});
+    static constexpr int part_dimensions = real::largest_of(
+        std::array<int, size>{std::remove_cvref_t<First>::dimensions, std::remove_cvref_t<Rest>::dimensions...});
 
   public:
     using Scalar = typename S0::Scalar;

@@ -67,7 +67,8 @@ class OneSample : public Combination<H, S...> {
     }
 
   private:
-    static constexpr int largest_dimensions = real::largest_of(std::array{std::remove_cvref_t<S>::dimensions...});
+    static constexpr int largest_dimensions =
+        real::largest_of(std::array<int, sizeof...(S)>{std::remove_cvref_t<S>::dimensions...});
 
     [[nodiscard]] LUMIS_HD constexpr bool is_certain() const noexcept {
         return Base::size == 1 && real::all(this->factor(0) >= 1);
