@@ -72,6 +72,24 @@ template <class L>
     return lanes;
 }
 
+// Evenly over [0, width], of a width for each lane if R is made of lanes.
+template <lumis::Real R>
+struct Interval {
+    using Scalar = R;
+    using Point = R;
+    using Measure = lumis::measure::Lebesgue;
+    static constexpr int dimensions = 1;
+
+    R width;
+
+    [[nodiscard]] lumis::Sample<R, R> sample(const glm::vec<1, R>& u) const noexcept {
+        return {u.x * width, 1 / width};
+    }
+    [[nodiscard]] R pdf(const R& x) const noexcept {
+        return lumis::real::select(x >= 0 && x <= width, R(1 / width), lumis::scalar_of<R>(0));
+    }
+};
+
 // Yields the same lanes again and again.
 template <class L>
 struct Same {
@@ -222,6 +240,32 @@ TEMPLATE_TEST_CASE("densities and weights at lanes of points", "[lanes]", float,
         const T weight = lumis::mis_weight(lumis::PowerHeuristic{}, densities[0][i], densities[1][i]);
         CHECK(near(lumis::mis_weight(lumis::PowerHeuristic{}, densities[0], densities[1])[i], weight));
     }
+}
+
+TEMPLATE_TEST_CASE("strategies that are made of lanes combine, and each lane has its own", "[lanes]", float, double) {
+    using T = TestType;
+    using L = lumis::NativeLanes<T>;
+    const L width = counting<L>(T(1)), probability = counting<L>(T(0.5)) * T(0.1), u = counting<L>(T(0.25)) / T(9);
+    const auto f = [](const auto& x) { return x * x + 1; };
+    // Calls estimate(intervals, probability) with those of all lanes, and with those of each.
+    const auto check_each = [&](const auto& estimate) {
+        const L lanes = estimate(Interval<L>{width}, Interval<L>{L(T(2))}, probability, Same<L>{u});
+        for (std::size_t i = 0; i < L::size; ++i) {
+            const T alone = estimate(Interval<T>{width[i]}, Interval<T>{T(2)}, probability[i], Same<T>{u[i]});
+            CHECK(std::abs(lanes[i] - alone) <= 8 * std::numeric_limits<T>::epsilon() * alone);
+        }
+    };
+    const lumis::PowerHeuristic power;
+    check_each([&](const auto& own, const auto& same, const auto&, const auto& uniforms) {
+        return lumis::multi_sample(power, take(2, own), take(1, same)).estimate(f, uniforms);
+    });
+    check_each([&](const auto& own, const auto& same, const auto& chance, const auto& uniforms) {
+        return lumis::one_sample(power, choose(chance, own), choose(1 - chance, same)).estimate(f, uniforms);
+    });
+    check_each([&](const auto& own, const auto& same, const auto& chance, const auto& uniforms) {
+        const lumis::Mixture mixture{choose(chance, own), choose(1 - chance, same)};
+        return lumis::multi_sample(power, take(1, mixture), take(1, same)).estimate(f, uniforms);
+    });
 }
 
 TEMPLATE_TEST_CASE("moments of lanes are those of each", "[lanes]", float, double) {

@@ -14,7 +14,7 @@ class MultiSample : public Combination<H, S...> {
     using typename Base::Scalar;
 
     LUMIS_HD explicit constexpr MultiSample(const H& heuristic, Take<S>&&... techniques)
-        : Base{heuristic, {static_cast<Scalar>(techniques.count)...}, std::move(techniques)...},
+        : Base{heuristic, {Scalar(static_cast<scalar_of<Scalar>>(techniques.count))...}, std::move(techniques)...},
           counts_{techniques.count...} {}
 
     // An unbiased estimate of the integral of f. f(x) returns a number, a glm::vec, or any type that adds to itself and

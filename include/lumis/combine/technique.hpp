@@ -65,23 +65,41 @@ template <std::integral Count, StrategyReference W>
     return Take<const typename W::type&>{detail::checked_count(count), wrapper.get()};
 }
 
+namespace detail {
+
+// A number, or lanes where the strategy is made of such: each then has its own.
+template <class P, class S>
+concept ProbabilityOf = std::convertible_to<P, double> || std::convertible_to<P, typename S::Scalar>;
+
+template <class S, class P>
+[[nodiscard]] LUMIS_HD constexpr typename S::Scalar probability_of(const P& probability) {
+    using Scalar = typename S::Scalar;
+    if constexpr (std::convertible_to<P, double>) {
+        return Scalar(static_cast<scalar_of<Scalar>>(probability));
+    } else {
+        return probability;
+    }
+}
+
+}  // namespace detail
+
 // A strategy that is selected with a probability in [0, 1]; 0 leaves it out. Where the probabilities of a combination
 // sum to less than 1, the rest draws nothing; they may not sum to more. Kept as by take.
-template <class S>
-    requires Strategy<std::remove_cvref_t<S>>
-[[nodiscard]] LUMIS_HD constexpr auto choose(std::convertible_to<double> auto probability, S&& strategy) {
-    using Scalar = typename std::remove_cvref_t<S>::Scalar;
-    return Choose<detail::Held<S>>{static_cast<Scalar>(probability), std::forward<S>(strategy)};
+template <class P, class S>
+    requires Strategy<std::remove_cvref_t<S>> && detail::ProbabilityOf<P, std::remove_cvref_t<S>>
+[[nodiscard]] LUMIS_HD constexpr auto choose(P probability, S&& strategy) {
+    return Choose<detail::Held<S>>{detail::probability_of<std::remove_cvref_t<S>>(probability),
+                                   std::forward<S>(strategy)};
 }
-template <class S>
-    requires Strategy<S> && detail::HeldByReference<S&>
-[[nodiscard]] LUMIS_HD constexpr auto choose(std::convertible_to<double> auto probability,
-                                             S& strategy LUMIS_LIFETIME_BOUND) {
-    return Choose<detail::Held<S&>>{static_cast<typename S::Scalar>(probability), strategy};
+template <class P, class S>
+    requires Strategy<S> && detail::ProbabilityOf<P, S> && detail::HeldByReference<S&>
+[[nodiscard]] LUMIS_HD constexpr auto choose(P probability, S& strategy LUMIS_LIFETIME_BOUND) {
+    return Choose<detail::Held<S&>>{detail::probability_of<S>(probability), strategy};
 }
-template <StrategyReference W>
-[[nodiscard]] LUMIS_HD constexpr auto choose(std::convertible_to<double> auto probability, W wrapper) {
-    return Choose<const typename W::type&>{static_cast<typename W::type::Scalar>(probability), wrapper.get()};
+template <class P, StrategyReference W>
+    requires detail::ProbabilityOf<P, std::remove_const_t<typename W::type>>
+[[nodiscard]] LUMIS_HD constexpr auto choose(P probability, W wrapper) {
+    return Choose<const typename W::type&>{detail::probability_of<typename W::type>(probability), wrapper.get()};
 }
 
 namespace detail {
