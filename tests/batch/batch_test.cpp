@@ -10,8 +10,10 @@
 #include <concepts>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace {
@@ -95,6 +97,95 @@ TEMPLATE_TEST_CASE("delta strategies in a batch", "[batch]", float, double) {
     check(lumis::PerfectReflection<T>{Vector{T(0.6), 0, T(-0.8)}}, Vector{T(0)}, T(0));
     check(lumis::PointLight<T>{Vector{0, 0, 2}, Vector{T(0)}}, {0, 0, 1}, T(1));
     check(lumis::DirectionalLight<T>{Vector{0, 1, 0}}, {0, 1, 0}, T(1));
+}
+
+TEMPLATE_TEST_CASE("a batch keeps the distance of a light", "[batch]", float, double) {
+    using T = TestType;
+    using Vector = glm::vec<3, T>;
+    const lumis::Parallelogram<T> far{Vector{-1, -1, 3}, Vector{2, 0, 0}, Vector{0, 2, 0}};
+    const lumis::Parallelogram<T> near{Vector{0, 0, 1}, Vector{1, 0, 0}, Vector{0, 1, 0}};
+    const lumis::AreaLight light{far, Vector{T(0)}}, other{near, Vector{T(0)}};
+    const std::vector<T> u{T(0.1), T(0.9), T(0.4), T(0.5), T(0.7), T(0.2), T(0.8), T(0.6), T(0.3), T(0.15), T(0.95)};
+    const std::vector<T> v{u.rbegin(), u.rend()};
+    const std::size_t count = u.size();
+    std::vector<T> x(count), y(count), z(count), pdf(count), distance(count);
+    const auto check = [&](const auto& strategy, const auto& columns) {
+        lumis::sample_n(strategy, columns, lumis::LightSpans<T>{x, y, z, pdf, distance});
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vector w{x[i], y[i], z[i]};
+            CHECK(pdf[i] > 0);
+            CHECK(std::abs(distance[i] / strategy.distance_along(w) - 1) <= 1e-5);
+        }
+    };
+    check(light, lumis::UniformSpans<T>{u, v});
+    check(light, std::array<std::span<const T>, 2>{u, v});
+    // Those of a set and of a mixture are to the nearest light, whichever was drawn.
+    const lumis::LightSet set{std::vector{light, other}, std::vector<T>{1, 1}};
+    check(set, std::array<std::span<const T>, 3>{v, u, v});
+    check(lumis::Mixture{lumis::choose(0.5, light), lumis::choose(0.5, other)},
+          std::array<std::span<const T>, 3>{u, u, v});
+    CHECK(std::min_element(distance.begin(), distance.end())[0] < 2);
+    CHECK(std::max_element(distance.begin(), distance.end())[0] > 3);
+}
+
+TEMPLATE_TEST_CASE("indices and points of a table in a batch", "[batch]", float, double) {
+    using T = TestType;
+    const std::vector<T> u{T(0), T(0.1), T(0.3), T(0.5), T(0.7), T(0.9), T(0.99), T(0.25), T(0.75), T(0.6), T(0.4)};
+    const std::size_t count = u.size();
+    std::vector<T> pdf(count), again(count);
+    const auto check = [&](const auto& table, const auto& columns, auto uniforms_of) {
+        using Point = typename std::remove_cvref_t<decltype(table)>::Point;
+        std::vector<Point> value(count);
+        lumis::sample_n(table, columns, lumis::PointSpans<Point, T>{value, pdf});
+        lumis::pdf_n(table, value, again);
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto single = table.sample(uniforms_of(i));
+            CHECK(value[i] == single.value);
+            CHECK(pdf[i] == single.pdf);
+            CHECK(again[i] == table.pdf(single.value));
+        }
+    };
+    const std::vector<T> weights{1, 0, 2, 5};
+    const std::array<std::span<const T>, 1> one{u};
+    check(lumis::AliasTable{weights}, one, [&](std::size_t i) { return glm::vec<1, T>{u[i]}; });
+    check(lumis::PiecewiseConstant1D{weights}, one, [&](std::size_t i) { return glm::vec<1, T>{u[i]}; });
+    check(lumis::PiecewiseConstant2D{2, 2, weights}, lumis::UniformSpans<T>{u, u}, [&](std::size_t i) {
+        return glm::vec<2, T>{u[i], u[i]};
+    });
+}
+
+TEMPLATE_TEST_CASE("estimates in a batch", "[batch]", float, double) {
+    using T = TestType;
+    const auto cosine = lumis::multi_sample(lumis::PowerHeuristic{}, lumis::take(1, lumis::CosineHemisphere<T>{}));
+    const auto one = lumis::one_sample(lumis::PowerHeuristic{}, lumis::choose(0.5, lumis::CosineHemisphere<T>{}),
+                                       lumis::choose(0.5, lumis::UniformHemisphere<T>{}));
+    CHECK(cosine.uniforms_per_estimate() == 2);
+    CHECK(one.uniforms_per_estimate() == 3);
+    const std::vector<T> u(13, T(0.3));
+    std::vector<T> numbers(13);
+    std::vector<glm::vec<3, T>> colours(13);
+    const std::array<std::span<const T>, 3> columns{u, u, u};
+    const std::span two{columns.data(), 2};
+    // Estimates without variance: the integral of the cosine, and of a colour times it.
+    lumis::estimate_n(
+        cosine, [](const auto& w) { return w.z; }, two, numbers);
+    for (const T estimate : numbers) CHECK(std::abs(estimate - std::numbers::pi_v<T>) <= T(1e-5));
+    const glm::vec<3, T> colour(1, 2, 3);
+    lumis::estimate_n(
+        cosine, [&](const glm::vec<3, T>& w) { return colour * w.z; }, two, colours);
+    for (const auto& estimate : colours) {
+        CHECK(glm::length(estimate - colour * std::numbers::pi_v<T>) <= T(1e-5));
+    }
+    // No estimate, and a few.
+    lumis::estimate_n(
+        one, [](const auto& w) { return w.z; }, std::array<std::span<const T>, 3>{}, std::span{numbers}.first(0));
+    const std::array few{std::span{u}.first(3), std::span{u}.first(3), std::span{u}.first(3)};
+    std::vector<T> some(4, T(-1));
+    lumis::estimate_n(
+        one, [](const auto& w) { return w.z; }, few, std::span{some}.first(3));
+    CHECK(some[0] > 0);
+    CHECK(some[2] == some[0]);
+    CHECK(some[3] == -1);
 }
 
 TEMPLATE_TEST_CASE("weights in a batch", "[batch]", float, double) {
