@@ -41,6 +41,9 @@ TARGETS = [
     ("sample/environment_8192x4096", "textbook", "single", 4.0),
     ("sample/cosine_hemisphere", "single", "batch", 4.0),
     ("sample/ggx_reflection", "single", "batch", 5.0),
+    ("estimate/ggx_square_light", "single", "batch", 5.0),
+    ("estimate/cosine_sphere_light", "single", "batch", 5.0),
+    ("estimate/ggx_environment_1024x512", "single", "batch", 3.0),
 ]
 # ... and at -O2: no slower. Two times that are equal differ by this much from run to run.
 NO_SLOWER = 0.97
