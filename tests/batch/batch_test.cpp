@@ -121,7 +121,9 @@ TEMPLATE_TEST_CASE("a batch keeps the distance of a light", "[batch]", float, do
     check(light, std::array<std::span<const T>, 2>{u, v});
     // Those of a set and of a mixture are to the nearest light, whichever was drawn.
     const lumis::LightSet set{std::vector{light, other}, std::vector<T>{1, 1}};
+    const std::vector<T> behind(count, T(0.25));
     check(set, std::array<std::span<const T>, 3>{v, u, v});
+    check(set, std::array<std::span<const T>, 3>{behind, u, v});
     check(lumis::Mixture{lumis::choose(0.5, light), lumis::choose(0.5, other)},
           std::array<std::span<const T>, 3>{u, u, v});
     CHECK(std::min_element(distance.begin(), distance.end())[0] < 2);
