@@ -34,10 +34,9 @@ class Frame {
     LUMIS_HD constexpr Frame(const Direction<T>& tangent, const Direction<T>& bitangent,
                              const Direction<T>& normal) noexcept
         : tangent_{tangent}, bitangent_{bitangent}, normal_{normal} {
-        const auto orthonormal = detail::are_orthonormal(tangent, bitangent, normal);
-        LUMIS_ASSERT(real::all(orthonormal));
-        if (!real::all(orthonormal)) [[unlikely]]
-            *this = select(orthonormal, *this, made_orthonormal(tangent, bitangent, normal));
+        LUMIS_ASSERT(real::all(detail::are_orthonormal(tangent, bitangent, normal)));
+        if (!real::all(detail::are_orthonormal(tangent, bitangent, normal))) [[unlikely]]
+            *this = orthonormal(tangent, bitangent, normal);
     }
 
     template <RealOf<T> R = T>
@@ -58,27 +57,28 @@ class Frame {
     // A vector that has no direction becomes this, of which strategies draw nothing.
     static constexpr scalar_of<T> not_a_number = std::numeric_limits<T>::quiet_NaN();
 
-    [[nodiscard]] LUMIS_COLD static Frame made_orthonormal(Direction<T> tangent, Direction<T> bitangent,
-                                                           Direction<T> normal) noexcept {
+    [[nodiscard]] LUMIS_COLD static Frame orthonormal(Direction<T> tangent, Direction<T> bitangent,
+                                                      Direction<T> normal) noexcept {
         const auto left_handed = detail::dot(glm::cross(normal, tangent), bitangent) < 0;
-        Frame frame;
+        Frame given, frame, none;
+        given.tangent_ = tangent, given.bitangent_ = bitangent, given.normal_ = normal;
+        none.tangent_ = none.bitangent_ = none.normal_ = Direction<T>{T(not_a_number)};
         frame.normal_ = detail::unit_or(normal, not_a_number);
         // Twice: what the first pass leaves of a tangent next to the normal is rounding as well.
         const Direction<T> across = without_normal(frame.normal_, detail::unit_or(tangent, not_a_number));
         frame.tangent_ =
             detail::unit_or(without_normal(frame.normal_, detail::unit_or(across, not_a_number)), not_a_number);
         frame.bitangent_ = glm::cross(frame.normal_, frame.tangent_) * real::select(left_handed, T(-1), 1);
-        Frame none;
-        none.tangent_ = none.bitangent_ = none.normal_ = Direction<T>{T(not_a_number)};
-        return select(detail::dot(across, across) >= detail::squared(scalar_of<T>(1e-3)), frame, none);
+        const auto has_plane = detail::dot(across, across) >= detail::squared(scalar_of<T>(1e-3));
+        return select(detail::are_orthonormal(tangent, bitangent, normal), given, select(has_plane, frame, none));
     }
 
     LUMIS_HD static constexpr Frame select(const MaskOf<T>& condition, const Frame& a, const Frame& b) noexcept {
-        Frame result;
-        result.tangent_ = real::select(condition, a.tangent_, b.tangent_);
-        result.bitangent_ = real::select(condition, a.bitangent_, b.bitangent_);
-        result.normal_ = real::select(condition, a.normal_, b.normal_);
-        return result;
+        Frame chosen;
+        chosen.tangent_ = real::select(condition, a.tangent_, b.tangent_);
+        chosen.bitangent_ = real::select(condition, a.bitangent_, b.bitangent_);
+        chosen.normal_ = real::select(condition, a.normal_, b.normal_);
+        return chosen;
     }
 
     LUMIS_HD static Direction<T> without_normal(const Direction<T>& normal, const Direction<T>& v) noexcept {

@@ -57,25 +57,24 @@ template <Real T>
     return lengths + 100 * cosines <= squared(scalar_of<T>(unit_tolerance));
 }
 
-// v scaled to unit length; (none, none, none) if it has no direction. The argument is by value: one by reference would have
-// to be in memory wherever this function could be called.
+// A unit vector as it is, any other scaled to unit length; (none, none, none) if it has no direction. The argument is by
+// value: one by reference would have to be in memory wherever this function could be called.
 template <Real T>
 [[nodiscard]] LUMIS_COLD glm::vec<3, T> scaled_to_unit(glm::vec<3, T> v, scalar_of<T> none) noexcept {
     const T longest = real::greater(real::greater(real::abs(v.x), real::abs(v.y)), real::abs(v.z));
     const auto has_direction =
         !is_nan(v) && longest >= (std::numeric_limits<T>::min)() && longest <= (std::numeric_limits<T>::max)();
-    if (real::all(!has_direction)) return glm::vec<3, T>{T(none)};
+    if (!real::any(has_direction)) return glm::vec<3, T>{T(none)};
     const glm::vec<3, T> scaled = real::divide(v, real::divisor_where(has_direction, longest));
-    return real::select(has_direction, real::divide(scaled, real::length(scaled)), glm::vec<3, T>{T(none)});
+    const glm::vec<3, T> unit = real::divide(scaled, real::length(scaled));
+    return real::select(is_unit(v), v, real::select(has_direction, unit, glm::vec<3, T>{T(none)}));
 }
 
-// A unit vector as it is, any other as scaled_to_unit has it.
 template <Real T>
 [[nodiscard]] LUMIS_INLINE constexpr glm::vec<3, T> unit_or(const glm::vec<3, T>& v, scalar_of<T> none) noexcept {
-    const auto unit = is_unit(v);
-    if (real::all(unit)) [[likely]]
+    if (real::all(is_unit(v))) [[likely]]
         return v;
-    return real::select(unit, v, scaled_to_unit(v, none));
+    return scaled_to_unit(v, none);
 }
 
 }  // namespace lumis::detail
