@@ -10,12 +10,13 @@
 #include "lumis/lights/detail/flat_view.hpp"
 #include "lumis/lights/detail/sphere_view.hpp"
 #include "lumis/lights/shapes.hpp"
+#include "lumis/lights/surface.hpp"
 
 #include <glm/geometric.hpp>
 
 #include <concepts>
 #include <limits>
-#include <type_traits>
+#include <utility>
 
 namespace lumis {
 
@@ -23,40 +24,37 @@ struct ByArea {};        // every shape
 struct BySolidAngle {};  // Triangle, Parallelogram, Sphere
 
 // Shapes that a Sampling does not know. A disk is seen as an elliptic cone: a map even over that has no closed form.
-template <class Shape, class Sampling = ByArea>
+template <class S, class Sampling = ByArea>
 class AreaLight {
+    static_assert(!std::same_as<Sampling, ByArea> || Shape<S>,
+                  "lumis::AreaLight draws by area what is a lumis::Shape, see lumis/lights/surface.hpp");
     static_assert(!std::same_as<Sampling, BySolidAngle>,
                   "lumis::AreaLight draws Triangle, Parallelogram and Sphere by solid angle (include "
-                  "lumis/lights/area_light_by_solid_angle.hpp), any other shape ByArea, a Disk for one");
-    static_assert(std::same_as<Sampling, BySolidAngle>, "lumis::AreaLight draws ByArea or BySolidAngle");
+                  "lumis/lights/area_light_by_solid_angle.hpp), of lanes only Sphere; any other shape ByArea, a Disk "
+                  "for one");
+    static_assert(std::same_as<Sampling, ByArea> || std::same_as<Sampling, BySolidAngle>,
+                  "lumis::AreaLight draws ByArea or BySolidAngle");
 };
 
-namespace detail {
-
-template <class Shape>
-struct ViewOf : std::type_identity<detail::FlatView<Shape>> {};
-template <std::floating_point T>
-struct ViewOf<Disk<T>> : std::type_identity<detail::DiskView<T>> {};
-template <std::floating_point T>
-struct ViewOf<Sphere<T>> : std::type_identity<detail::SphereView<T>> {};
-
-}  // namespace detail
-
 // A shape without area, seen edge-on, from distance 0 or one whose square is out of range draws nothing.
-template <class Shape>
-class AreaLight<Shape, ByArea> {
+template <Shape S>
+class AreaLight<S, ByArea> {
+    using View = decltype(seen_from(std::declval<const S&>(), glm::vec<3, typename S::Scalar>{}));
+
   public:
-    using Scalar = typename Shape::Scalar;
+    using Scalar = typename S::Scalar;
     using Point = Direction<Scalar>;
     using Measure = measure::SolidAngle;
     static constexpr int dimensions = 2;
 
-    LUMIS_INLINE AreaLight(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept
-        : view_{shape, reference_point}, pdf_area_{real::quotient_where(view_.area() > 0, Scalar(1), view_.area())} {}
+    LUMIS_INLINE AreaLight(const S& shape, const glm::vec<3, Scalar>& reference_point) noexcept
+        : view_{seen_from(shape, reference_point)},
+          pdf_area_{real::quotient_where(view_.area() > 0, Scalar(1), view_.area())} {}
 
     template <RealOf<Scalar> R = Scalar>
+        requires SurfaceView<View, R>
     [[nodiscard]] LUMIS_INLINE LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
-        const detail::SurfaceSample<R> point = view_.sample(u);
+        const SurfaceSample<R> point = view_.sample(u);
         const R squared = glm::dot(point.position, point.position);
         const auto valid = is_squared_length(squared);
         const R distance = real::select(valid, real::sqrt(squared), 0);
@@ -66,22 +64,25 @@ class AreaLight<Shape, ByArea> {
     }
 
     template <RealOf<Scalar> R = Scalar>
+        requires SurfaceView<View, R>
     [[nodiscard]] LUMIS_HD R pdf(const Direction<R>& w) const noexcept {
-        const detail::SurfaceHit<R> hit = view_.intersect(w);
+        const SurfaceHit<R> hit = view_.intersect(w);
         return density(hit.distance, hit.cos_light);
     }
 
     // From the reference point to the light; infinity where w misses it.
     template <RealOf<Scalar> R = Scalar>
+        requires SurfaceView<View, R>
     [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept {
         return detail::distance_or_infinity(view_.intersect(w));
     }
 
     // Not for spheres, on which two points can lie in one direction.
-    [[nodiscard]] LUMIS_HD glm::vec<2, Scalar> invert(const Point& w) const noexcept
-        requires(!std::same_as<Shape, Sphere<Scalar>>) {
-        return view_.invert(w);
+    [[nodiscard]] LUMIS_HD glm::vec<2, Scalar> invert(const Point& w) const noexcept requires
+        requires(const View view) {
+        view.invert(w);
     }
+    { return view_.invert(w); }
 
     // For hosts that already know where a ray hit this light: the distance to the point, and the cosine there, of either
     // sign, between the ray and the normal of the shape itself. The cosine to an interpolated shading normal gives a density
@@ -98,11 +99,11 @@ class AreaLight<Shape, ByArea> {
         return area_to_solid_angle(pdf_area_, distance, cos_light);
     }
 
-    typename detail::ViewOf<Shape>::type view_;
+    View view_;
     Scalar pdf_area_;
 };
 
-template <class Shape, class T>
-AreaLight(Shape, glm::vec<3, T>) -> AreaLight<Shape, ByArea>;
+template <class S>
+AreaLight(S, glm::vec<3, typename S::Scalar>) -> AreaLight<S, ByArea>;
 
 }  // namespace lumis

@@ -11,6 +11,7 @@
 #include <concepts>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 namespace lumis {
 
@@ -19,16 +20,17 @@ namespace detail {
 // What was drawn, or nothing where rounding has put the direction beside the light, or has left no unit vector: slivers no
 // wider than the last place of their coordinates are seen so. The distance is 0 on a sphere's surface.
 template <Real R>
-[[nodiscard]] LUMIS_INLINE inline LightSample<Direction<R>, R> seen_at(const Direction<R>& w, scalar_of<R> pdf,
+[[nodiscard]] LUMIS_INLINE inline LightSample<Direction<R>, R> seen_at(const Direction<R>& w,
+                                                                       std::type_identity_t<R> pdf,
                                                                        R distance) noexcept {
     constexpr auto rounding = 64 * std::numeric_limits<R>::epsilon();
     const auto seen = real::abs(real::rounded(R(glm::dot(w, w) - 1))) <= rounding && distance >= 0 &&
                       distance <= (std::numeric_limits<R>::max)();
-    return {real::select(seen, w, Direction<R>{}), real::select(seen, R(pdf), 0), real::select(seen, distance, 0)};
+    return {real::select(seen, w, Direction<R>{}), real::select(seen, pdf, 0), real::select(seen, distance, 0)};
 }
 
 // The density that is even over a solid angle; 0 over none, and over one so small that its inverse is out of range.
-template <std::floating_point T>
+template <Real T>
 [[nodiscard]] LUMIS_HD T uniform_density(T solid_angle) noexcept {
     return density_or_zero(real::quotient_where(solid_angle > 0, T(1), solid_angle));
 }
@@ -36,7 +38,7 @@ template <std::floating_point T>
 }  // namespace detail
 
 // The sphere's cone of directions evenly (Shirley, Wang and Zimmerman 1996); from inside, all directions evenly.
-template <std::floating_point T>
+template <Real T>
 class AreaLight<Sphere<T>, BySolidAngle> {
   public:
     using Scalar = T;
@@ -54,7 +56,7 @@ class AreaLight<Sphere<T>, BySolidAngle> {
         return detail::seen_at(direction, pdf_, distance);
     }
 
-    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& w) const noexcept { return view_.invert(w); }
+    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& w) const noexcept { return view_.invert_direction(w); }
 
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD R pdf(const Direction<R>& w) const noexcept {

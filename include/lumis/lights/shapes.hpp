@@ -9,28 +9,28 @@
 
 namespace lumis {
 
-template <std::floating_point T = float>
+template <Real T = float>
 struct Triangle {
     using Scalar = T;
     glm::vec<3, T> a, b, c;
 };
 
 // The points corner + s edge_u + t edge_v for s, t in [0, 1].
-template <std::floating_point T = float>
+template <Real T = float>
 struct Parallelogram {
     using Scalar = T;
     glm::vec<3, T> corner, edge_u, edge_v;
 };
 
 // normal: of any length.
-template <std::floating_point T = float>
+template <Real T = float>
 struct Disk {
     using Scalar = T;
     glm::vec<3, T> center, normal;
     T radius;
 };
 
-template <std::floating_point T = float>
+template <Real T = float>
 struct Sphere {
     using Scalar = T;
     glm::vec<3, T> center;
@@ -40,32 +40,33 @@ struct Sphere {
 namespace detail {
 
 // Whether any coordinate of a shape is NaN.
-template <std::floating_point T>
-[[nodiscard]] LUMIS_HD constexpr bool is_nan(const Triangle<T>& shape) noexcept {
+template <Real T>
+[[nodiscard]] LUMIS_HD constexpr MaskOf<T> is_nan(const Triangle<T>& shape) noexcept {
     return is_nan(shape.a) || is_nan(shape.b) || is_nan(shape.c);
 }
-template <std::floating_point T>
-[[nodiscard]] LUMIS_HD constexpr bool is_nan(const Parallelogram<T>& shape) noexcept {
+template <Real T>
+[[nodiscard]] LUMIS_HD constexpr MaskOf<T> is_nan(const Parallelogram<T>& shape) noexcept {
     return is_nan(shape.corner) || is_nan(shape.edge_u) || is_nan(shape.edge_v);
 }
-template <std::floating_point T>
-[[nodiscard]] LUMIS_HD constexpr bool is_nan(const Disk<T>& shape) noexcept {
+template <Real T>
+[[nodiscard]] LUMIS_HD constexpr MaskOf<T> is_nan(const Disk<T>& shape) noexcept {
     return is_nan(shape.center) || is_nan(shape.normal) || is_nan(shape.radius);
 }
-template <std::floating_point T>
-[[nodiscard]] LUMIS_HD constexpr bool is_nan(const Sphere<T>& shape) noexcept {
+template <Real T>
+[[nodiscard]] LUMIS_HD constexpr MaskOf<T> is_nan(const Sphere<T>& shape) noexcept {
     return is_nan(shape.center) || is_nan(shape.radius);
 }
 
 }  // namespace detail
 
-template <std::floating_point T>
+template <Real T>
 Triangle(glm::vec<3, T>, glm::vec<3, T>, glm::vec<3, T>) -> Triangle<T>;
-template <std::floating_point T>
+template <Real T>
 Parallelogram(glm::vec<3, T>, glm::vec<3, T>, glm::vec<3, T>) -> Parallelogram<T>;
-template <std::floating_point T>
-Disk(glm::vec<3, T>, glm::vec<3, T>, T) -> Disk<T>;
-template <std::floating_point T>
-Sphere(glm::vec<3, T>, T) -> Sphere<T>;
+// The vectors decide: a radius of 1, or of 0.5 where they are of floats, is converted.
+template <Real T, std::convertible_to<T> Radius>
+Disk(glm::vec<3, T>, glm::vec<3, T>, Radius) -> Disk<T>;
+template <Real T, std::convertible_to<T> Radius>
+Sphere(glm::vec<3, T>, Radius) -> Sphere<T>;
 
 }  // namespace lumis

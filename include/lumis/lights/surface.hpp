@@ -1,5 +1,15 @@
-// What the views of the shapes answer: a point drawn on a surface, and a ray's meeting with it, both as seen from a
-// reference point.
+// What a light's surface is, as seen from a reference point: a view of it draws points, and meets rays. Lights of shapes of
+// your own need just this:
+//
+//     struct Ring {
+//         using Scalar = float;
+//         ...
+//         [[nodiscard]] RingView seen_from(const glm::vec3& reference_point) const noexcept;  // or a function beside it
+//     };
+//     const lumis::AreaLight light{Ring{...}, point};
+//
+// where a RingView has what SurfaceView names. One with kernels for any Real R, in place of Scalar alone, also serves
+// batches in lanes.
 #pragma once
 
 #include "lumis/core/platform.hpp"
@@ -7,8 +17,9 @@
 
 #include <concepts>
 #include <limits>
+#include <type_traits>
 
-namespace lumis::detail {
+namespace lumis {
 
 // A point relative to the reference point, and the cosine at the light times its distance; 0: edge-on, or hidden.
 template <Real R>
@@ -24,6 +35,34 @@ struct SurfaceHit {
     R cos_light{};
 };
 
+// area() is that of the surface, 0 of one that draws nothing. sample(u), for u in [0,1]^2, yields its points evenly by area.
+// intersect(w), for a unit vector w, yields the one point in that direction: sample and intersect have to agree on which
+// side of the surface is seen. An invert(w), the u of that point, makes the light invertible.
+template <class V, class R>
+concept SurfaceView = Real<R> && requires(const V view, glm::vec<2, R> u, Direction<R> w) {
+    { view.area() } -> std::convertible_to<R>;
+    { view.sample(u) } -> std::same_as<SurfaceSample<R>>;
+    { view.intersect(w) } -> std::same_as<SurfaceHit<R>>;
+};
+
+// A shape may have seen_from as a member, or as a function in its namespace.
+template <class S>
+    requires requires(const S& shape, const glm::vec<3, typename S::Scalar>& reference_point) {
+        shape.seen_from(reference_point);
+    }
+[[nodiscard]] LUMIS_INLINE inline auto seen_from(const S& shape,
+                                                 const glm::vec<3, typename S::Scalar>& reference_point) noexcept {
+    return shape.seen_from(reference_point);
+}
+
+template <class S>
+concept Shape = Real<typename S::Scalar> &&
+    requires(const S& shape, const glm::vec<3, typename S::Scalar>& reference_point) {
+    { seen_from(shape, reference_point) } -> SurfaceView<typename S::Scalar>;
+};
+
+namespace detail {
+
 // The hit where there is one, nowhere elsewhere.
 template <Real R>
 [[nodiscard]] LUMIS_HD SurfaceHit<R> hit_if(const MaskOf<R>& met, R distance,
@@ -37,4 +76,6 @@ template <Real R>
     return real::select(hit.distance > 0, hit.distance, std::numeric_limits<scalar_of<R>>::infinity());
 }
 
-}  // namespace lumis::detail
+}  // namespace detail
+
+}  // namespace lumis

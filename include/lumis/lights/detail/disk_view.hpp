@@ -4,8 +4,8 @@
 #include "lumis/core/frame.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/core/spherical.hpp"
-#include "lumis/lights/detail/surface.hpp"
 #include "lumis/lights/shapes.hpp"
+#include "lumis/lights/surface.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -16,21 +16,23 @@
 
 namespace lumis::detail {
 
-template <std::floating_point T>
+template <Real T>
 class DiskView {
   public:
     LUMIS_HD DiskView(const Disk<T>& disk, const glm::vec<3, T>& reference_point) noexcept
         : center_{real::rounded(disk.center - reference_point)} {
-        LUMIS_ASSERT(!is_nan(disk) && !is_nan(reference_point));
+        LUMIS_ASSERT(real::all(!is_nan(disk) && !is_nan(reference_point)));
         const T squared = glm::dot(disk.normal, disk.normal);
-        if (is_squared_length(squared)) {
-            frame_ = Frame<T>{real::divide(disk.normal, real::sqrt(squared))};
-            if (disk.radius > 0) radius_ = disk.radius;
+        const auto has_normal = is_squared_length(squared);
+        if (real::any(has_normal)) {
+            const Direction<T> normal = real::divide(disk.normal, real::sqrt(squared));
+            frame_ = Frame<T>{real::select(has_normal, normal, frame_.normal())};
+            radius_ = real::select(has_normal && disk.radius > 0, disk.radius, 0);
         }
         height_ = glm::dot(center_, frame_.normal());
     }
 
-    [[nodiscard]] LUMIS_HD T area() const noexcept { return std::numbers::pi_v<T> * radius_ * radius_; }
+    [[nodiscard]] LUMIS_HD T area() const noexcept { return std::numbers::pi_v<scalar_of<T>> * radius_ * radius_; }
 
     // u.x = 0 is the centre, u.y a fraction of a turn.
     template <RealOf<T> R = T>
@@ -55,7 +57,7 @@ class DiskView {
 
     [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
         const T cos_light = glm::dot(w, frame_.normal());
-        const T distance = real::quotient_where(std::abs(cos_light) > 0, height_, cos_light);
+        const T distance = real::quotient_where(real::abs(cos_light) > 0, height_, cos_light);
         const glm::vec<3, T> across = real::rounded(distance * w - center_);
         const T inverse = real::quotient_where(radius_ > 0, T(1), radius_);
         const T x = glm::dot(across, frame_.tangent()) * inverse, y = glm::dot(across, frame_.bitangent()) * inverse;
@@ -65,8 +67,17 @@ class DiskView {
   private:
     glm::vec<3, T> center_;  // relative to the reference point
     T radius_{0};
-    Frame<T> frame_{Direction<T>{0, 0, 1}};
+    Frame<T> frame_{Direction<T>{T(0), T(0), T(1)}};
     T height_{0};  // of the plane over the reference point, along the normal; signed
 };
 
 }  // namespace lumis::detail
+
+namespace lumis {
+
+template <Real T>
+[[nodiscard]] LUMIS_HD auto seen_from(const Disk<T>& shape, const glm::vec<3, T>& reference_point) noexcept {
+    return detail::DiskView<T>{shape, reference_point};
+}
+
+}  // namespace lumis

@@ -5,6 +5,7 @@
 #include "lumis/core/detail/arguments.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
+#include "lumis/lights/detail/wide.hpp"
 #include "lumis/lights/shapes.hpp"
 
 #include <glm/geometric.hpp>
@@ -18,32 +19,31 @@
 
 namespace lumis::detail {
 
-// What a shape is prepared in. A float shape that passes close by needs double: where the reference point is 1e-6 of an edge
-// away from the plane, a height formed of float products is wrong by a tenth. float coordinates differ exactly in double.
-template <std::floating_point T>
-using Wide = std::conditional_t<std::same_as<T, float>, double, T>;
-
-template <std::floating_point T>
+template <Real T>
 [[nodiscard]] LUMIS_HD T longest_component(const glm::vec<3, T>& v) noexcept {
-    return real::greater(real::greater(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
+    return real::greater(real::greater(real::abs(v.x), real::abs(v.y)), real::abs(v.z));
 }
 
 // The largest power of two that is not above x, but at least the smallest normal number.
-template <std::floating_point T>
+template <Real T>
 [[nodiscard]] LUMIS_HD T power_of_two(T x) noexcept {
-    using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
-    constexpr Bits sign = Bits{1} << (8 * sizeof(T) - 1),
-                   exponent = sign - (Bits{1} << (std::numeric_limits<T>::digits - 1));
-    T power = real::greater((std::numeric_limits<T>::min)(), x);
-    Bits bits;  // std::bit_cast is not in every standard library
-    std::memcpy(&bits, &power, sizeof bits);
-    bits &= exponent;
-    std::memcpy(&power, &bits, sizeof bits);
-    return power;
+    if constexpr (std::floating_point<T>) {
+        using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+        constexpr Bits sign = Bits{1} << (8 * sizeof(T) - 1),
+                       exponent = sign - (Bits{1} << (std::numeric_limits<T>::digits - 1));
+        T power = real::greater((std::numeric_limits<T>::min)(), x);
+        Bits bits;  // std::bit_cast is not in every standard library
+        std::memcpy(&bits, &power, sizeof bits);
+        bits &= exponent;
+        std::memcpy(&power, &bits, sizeof bits);
+        return power;
+    } else {
+        return T::of_lanes([&](auto i) { return power_of_two(x[i]); });
+    }
 }
 
 // Each difference as rounded: of two vectors nearly in line it is all that is left of their products.
-template <std::floating_point T>
+template <Real T>
 [[nodiscard]] LUMIS_INLINE inline glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) noexcept {
     return real::rounded(glm::cross(a, b));
 }
@@ -68,13 +68,13 @@ struct FlatShape {
 
     LUMIS_INLINE FlatShape(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept requires is_triangle
         : FlatShape{difference(shape.a, reference_point), difference(shape.b, shape.a), difference(shape.c, shape.a)} {
-        LUMIS_ASSERT(!is_nan(shape) && !is_nan(reference_point));
+        LUMIS_ASSERT(real::all(!is_nan(shape) && !is_nan(reference_point)));
     }
 
     LUMIS_INLINE FlatShape(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept
         requires(!is_triangle)
         : FlatShape{difference(shape.corner, reference_point), Vector(shape.edge_u), Vector(shape.edge_v)} {
-        LUMIS_ASSERT(!is_nan(shape) && !is_nan(reference_point));
+        LUMIS_ASSERT(real::all(!is_nan(shape) && !is_nan(reference_point)));
     }
 
   private:
@@ -82,7 +82,7 @@ struct FlatShape {
         : in_scene{corner, u, v}, in_units{in_scene} {
         if constexpr (std::same_as<Wide, Scalar>) {
             // Not so small that the square of the corner would leave its range: then the shape subtends nothing.
-            const Wide least = longest_component(corner) * Wide(0x1p-500);
+            const Wide least = longest_component(corner) * scalar_of<Wide>(0x1p-500);
             const Wide longest = real::greater(longest_component(u), longest_component(v));
             unit = power_of_two(real::greater(longest, least));
             const Wide inverse = 1 / unit;

@@ -4,7 +4,7 @@
 #include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/lights/detail/flat_shape.hpp"
-#include "lumis/lights/detail/surface.hpp"
+#include "lumis/lights/surface.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -25,14 +25,14 @@ class FlatView {
     LUMIS_INLINE explicit FlatView(const FlatShape<Shape>& shape) noexcept
         : corner_{shape.in_scene.corner}, edge_u_{shape.in_scene.edge_u}, edge_v_{shape.in_scene.edge_v} {
         using Wide = typename FlatShape<Shape>::Wide;
-        constexpr T rounding = 4 * std::numeric_limits<T>::epsilon();
+        constexpr auto rounding = 4 * std::numeric_limits<T>::epsilon();
         const auto& [start, u, v] = shape.in_units;
         const auto normal = cross(u, v);
         const Wide area = real::length(normal);  // of the parallelogram of the edges
         const Wide inverse = real::quotient_where(area > 0, Wide(1), area);
         normal_ = normal * inverse;
-        height_ = static_cast<T>(glm::dot(start, normal) * inverse * shape.unit);
-        area_ = static_cast<T>(area * shape.unit * shape.unit * (is_triangle ? Wide(0.5) : Wide(1)));
+        height_ = static_cast<T>(Wide(glm::dot(start, normal) * inverse * shape.unit));
+        area_ = static_cast<T>(area * shape.unit * shape.unit * scalar_of<Wide>(is_triangle ? 0.5 : 1));
         across_u_ = cross(v, start) * inverse;
         across_v_ = cross(start, u) * inverse;
         rounding_u_ = rounding * longest_component(across_u_);
@@ -64,11 +64,11 @@ class FlatView {
     // The u that sample maps to the point that w meets.
     [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
         const T cos_light = glm::dot(w, normal_);
-        const bool meets = std::abs(cos_light) > 0;
-        const T s = real::quotient_where(meets, glm::dot(w, across_u_), cos_light);
-        const T t = real::quotient_where(meets, glm::dot(w, across_v_), cos_light);
+        const auto meets = real::abs(cos_light) > 0;
+        const T s = real::quotient_where(meets, T(glm::dot(w, across_u_)), cos_light);
+        const T t = real::quotient_where(meets, T(glm::dot(w, across_v_)), cos_light);
         if constexpr (is_triangle) {
-            return {(s + t) * (s + t), real::quotient_where(s + t > 0, t, s + t)};
+            return {(s + t) * (s + t), real::quotient_where(s + t > 0, t, T(s + t))};
         } else {
             return {s, t};
         }
@@ -80,7 +80,7 @@ class FlatView {
     [[nodiscard]] LUMIS_HD SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
         const R cos_light = glm::dot(w, Direction<R>(normal_));
         const R distance = real::quotient_where(real::abs(cos_light) > 0, R(height_), cos_light);
-        const R reach = real::abs(cos_light), sign = real::copysign(R(T(1)), cos_light);
+        const R reach = real::abs(cos_light), sign = real::copysign(R(scalar_of<R>(1)), cos_light);
         const R s = sign * glm::dot(w, Direction<R>(across_u_)), t = sign * glm::dot(w, Direction<R>(across_v_));
         const auto below_far_edges = is_triangle ? s + t <= reach + (rounding_u_ + rounding_v_)
                                                  : s <= reach + rounding_u_ && t <= reach + rounding_v_;
@@ -97,3 +97,18 @@ class FlatView {
 };
 
 }  // namespace lumis::detail
+
+namespace lumis {
+
+template <Real T>
+[[nodiscard]] LUMIS_INLINE inline auto seen_from(const Triangle<T>& shape,
+                                                 const glm::vec<3, T>& reference_point) noexcept {
+    return detail::FlatView<Triangle<T>>{shape, reference_point};
+}
+template <Real T>
+[[nodiscard]] LUMIS_INLINE inline auto seen_from(const Parallelogram<T>& shape,
+                                                 const glm::vec<3, T>& reference_point) noexcept {
+    return detail::FlatView<Parallelogram<T>>{shape, reference_point};
+}
+
+}  // namespace lumis

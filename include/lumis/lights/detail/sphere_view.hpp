@@ -5,8 +5,9 @@
 #include "lumis/core/frame.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/core/spherical.hpp"
-#include "lumis/lights/detail/surface.hpp"
+#include "lumis/lights/detail/wide.hpp"
 #include "lumis/lights/shapes.hpp"
+#include "lumis/lights/surface.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -17,7 +18,7 @@
 
 namespace lumis::detail {
 
-template <std::floating_point T>
+template <Real T>
 class SphereView {
   public:
     // A sphere whose radius is not positive, or a number out of range, subtends nothing; nor does one from its own surface,
@@ -25,36 +26,45 @@ class SphereView {
     LUMIS_INLINE SphereView(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point) noexcept
         : center_{real::rounded(sphere.center - reference_point)},
           radius_{sphere.radius},
-          axis_{Direction<T>{0, 0, 1}} {
-        LUMIS_ASSERT(!is_nan(sphere) && !is_nan(reference_point));
+          axis_{Direction<T>{T(0), T(0), T(1)}} {
+        LUMIS_ASSERT(real::all(!is_nan(sphere) && !is_nan(reference_point)));
         // In double: just above the surface the rounding of a float distance is as large as the height.
-        const glm::dvec3 center{center_};
-        const double squared = glm::dot(center, center), r = radius_;
+        using Wide = detail::Wide<T>;
+        const glm::vec<3, Wide> center{center_};
+        const Wide squared = glm::dot(center, center), r{radius_};
         distance_ = real::sqrt(static_cast<T>(squared));
-        tangent_squared_ = static_cast<T>(real::rounded(squared - r * r));
+        tangent_squared_ = static_cast<T>(real::rounded(Wide(squared - r * r)));
         inside_ = tangent_squared_ < 0;
-        const bool has_axis = is_squared_length(distance_ * distance_);
-        if (has_axis) axis_ = Frame<T>{real::divide(center_, real::divisor_where(has_axis, distance_))};
+        const auto has_axis = is_squared_length(T(distance_ * distance_));
+        if (real::any(has_axis)) {
+            const Direction<T> to_center = real::divide(center_, real::divisor_where(has_axis, distance_));
+            axis_ = Frame<T>{real::select(has_axis, to_center, axis_.normal())};
+        }
         const T tangent = real::sqrt_or_zero(tangent_squared_);
         const T sine = real::quotient_where(distance_ > 0, radius_, distance_);
-        versine_ = inside_ ? T(2) : sine * real::quotient_where(distance_ > 0, radius_, distance_ + tangent);
+        versine_ = sine * real::quotient_where(distance_ > 0, radius_, T(distance_ + tangent));
+        if (real::any(inside_)) versine_ = real::select(inside_, T(2), versine_);
         chord_ = real::sqrt_or_zero(2 * versine_) + 8 * std::numeric_limits<T>::epsilon();
-        const bool touches = tangent_squared_ == 0;
-        if (!((has_axis || inside_) && !touches && radius_ > 0 && radius_ <= (std::numeric_limits<T>::max)())) {
-            versine_ = radius_ = 0;
+        const auto touches = tangent_squared_ == 0;
+        const auto seen =
+            (has_axis || inside_) && !touches && radius_ > 0 && radius_ <= (std::numeric_limits<T>::max)();
+        if (!real::all(seen)) {
+            versine_ = real::select(seen, versine_, 0);
+            radius_ = real::select(seen, radius_, 0);
         }
     }
 
-    [[nodiscard]] LUMIS_HD T area() const noexcept { return 4 * std::numbers::pi_v<T> * radius_ * radius_; }
+    [[nodiscard]] LUMIS_HD T area() const noexcept { return 4 * std::numbers::pi_v<scalar_of<T>> * radius_ * radius_; }
 
-    [[nodiscard]] LUMIS_HD T solid_angle() const noexcept { return 2 * std::numbers::pi_v<T> * versine_; }
+    [[nodiscard]] LUMIS_HD T solid_angle() const noexcept { return 2 * std::numbers::pi_v<scalar_of<T>> * versine_; }
 
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD SurfaceSample<R> sample(glm::vec<2, R> u) const noexcept {
         const Direction<R> normal = direction_at(R(2 * u.x), u.y);
         SurfaceSample<R> drawn{glm::vec<3, R>(center_) + R(radius_) * normal};
         const R towards = -glm::dot(drawn.position, normal);
-        drawn.cos_times_distance = inside_ ? towards : real::greater(towards, 0);
+        drawn.cos_times_distance = real::either(
+            inside_, [&] { return towards; }, [&] { return real::greater(towards, 0); });
         return drawn;
     }
 
@@ -74,10 +84,10 @@ class SphereView {
     }
 
     // The u of a direction towards the sphere.
-    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD glm::vec<2, T> invert_direction(const Direction<T>& w) const noexcept {
         const glm::vec<3, T> chord = real::rounded(w - axis_.normal());
         const Direction<T> local = axis_.to_local(w);
-        return {real::quotient_where(versine_ > 0, glm::dot(chord, chord), 2 * versine_), turn_of(local.x, local.y)};
+        return {real::quotient_where(versine_ > 0, T(glm::dot(chord, chord)), 2 * versine_), turn_of(local.x, local.y)};
     }
 
     // Whether w points at the sphere. The chord between w and the axis keeps its digits where their cosine has none;
@@ -110,17 +120,29 @@ class SphereView {
     template <Real R>
     [[nodiscard]] LUMIS_HD R distance_along(R along, R across) const noexcept {
         const R far_root = along + half_chord_at(across);
-        return inside_ ? far_root : real::quotient_where(far_root > 0, R(tangent_squared_), far_root);
+        return real::either(
+            inside_, [&] { return far_root; },
+            [&] { return real::quotient_where(far_root > 0, R(tangent_squared_), far_root); });
     }
 
     glm::vec<3, T> center_;  // relative to the reference point
     T radius_;
     T distance_;         // to the centre
     T tangent_squared_;  // of the tangent's length; negative inside
-    bool inside_;
+    MaskOf<T> inside_;
     Frame<T> axis_;  // its normal points at the centre
     T versine_;      // 1 - cos of the half-angle subtended; 2 from inside
     T chord_;        // longest |w - axis| of a direction w that points at the sphere
 };
 
 }  // namespace lumis::detail
+
+namespace lumis {
+
+template <Real T>
+[[nodiscard]] LUMIS_INLINE inline auto seen_from(const Sphere<T>& shape,
+                                                 const glm::vec<3, T>& reference_point) noexcept {
+    return detail::SphereView<T>{shape, reference_point};
+}
+
+}  // namespace lumis
