@@ -28,6 +28,12 @@ struct Disk {
     using Scalar = T;
     glm::vec<3, T> center, normal;
     T radius;
+
+    Disk() = default;
+    // The vectors decide on the scalar: a radius of another type is converted.
+    template <std::convertible_to<T> Radius>
+    LUMIS_HD constexpr Disk(const glm::vec<3, T>& center_, const glm::vec<3, T>& normal_, Radius radius_) noexcept
+        : center{center_}, normal{normal_}, radius(static_cast<T>(radius_)) {}
 };
 
 template <Real T = float>
@@ -35,6 +41,11 @@ struct Sphere {
     using Scalar = T;
     glm::vec<3, T> center;
     T radius;
+
+    Sphere() = default;
+    template <std::convertible_to<T> Radius>
+    LUMIS_HD constexpr Sphere(const glm::vec<3, T>& center_, Radius radius_) noexcept
+        : center{center_}, radius(static_cast<T>(radius_)) {}
 };
 
 namespace detail {
@@ -63,10 +74,4 @@ template <Real T>
 Triangle(glm::vec<3, T>, glm::vec<3, T>, glm::vec<3, T>) -> Triangle<T>;
 template <Real T>
 Parallelogram(glm::vec<3, T>, glm::vec<3, T>, glm::vec<3, T>) -> Parallelogram<T>;
-// The vectors decide: a radius of 1, or of 0.5 where they are of floats, is converted.
-template <Real T, std::convertible_to<T> Radius>
-Disk(glm::vec<3, T>, glm::vec<3, T>, Radius) -> Disk<T>;
-template <Real T, std::convertible_to<T> Radius>
-Sphere(glm::vec<3, T>, Radius) -> Sphere<T>;
-
 }  // namespace lumis

@@ -12,6 +12,7 @@
 #include <concepts>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 namespace lumis {
 
@@ -20,6 +21,20 @@ namespace lumis {
 inline constexpr float ggx_min_alpha = 1e-4f;
 // Beyond this a roughness is out of range, as are negative and NaN ones: D, G1 and every density built on them are 0.
 inline constexpr float ggx_max_alpha = 1e4f;
+
+namespace detail {
+
+// One roughness for both axes, any number of which is converted.
+template <Real T, std::convertible_to<T> Roughness>
+[[nodiscard]] LUMIS_HD glm::vec<2, T> on_both_axes(Roughness alpha) noexcept {
+    if constexpr (std::is_arithmetic_v<Roughness>) {
+        return glm::vec<2, T>{T(static_cast<scalar_of<T>>(alpha))};
+    } else {
+        return glm::vec<2, T>{T(alpha)};
+    }
+}
+
+}  // namespace detail
 
 template <Real T = float>
 class Ggx {
@@ -36,6 +51,9 @@ class Ggx {
                           real::select(valid, real::divide(T(1), alpha_.y), 0)};
         alpha_ = {real::select(valid, alpha_.x, 0), real::select(valid, alpha_.y, 0)};
     }
+
+    // One roughness for both axes.
+    LUMIS_INLINE explicit Ggx(T alpha) noexcept : Ggx{glm::vec<2, T>{alpha}} {}
 
     // After raising; (0, 0) if out of range.
     [[nodiscard]] LUMIS_HD const glm::vec<2, T>& alpha() const noexcept { return alpha_; }

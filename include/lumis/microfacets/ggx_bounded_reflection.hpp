@@ -8,6 +8,7 @@
 #include "lumis/microfacets/reflected.hpp"
 
 #include <cmath>
+#include <concepts>
 
 namespace lumis {
 
@@ -37,6 +38,10 @@ struct GgxBoundedReflection : Reflected<detail::GgxBoundedNormals<T>> {
     // wo: unit; on or below the horizon nothing is drawn. alpha: roughness along x and y, see ggx_min_alpha.
     LUMIS_INLINE GgxBoundedReflection(const Direction<T>& wo, glm::vec<2, T> alpha) noexcept
         : Reflected<detail::GgxBoundedNormals<T>>{wo, detail::GgxBoundedNormals<T>{wo, Ggx<T>{alpha}}} {}
+    // One roughness for both axes.
+    template <std::convertible_to<T> Roughness>
+    LUMIS_INLINE GgxBoundedReflection(const Direction<T>& wo, Roughness alpha) noexcept
+        : GgxBoundedReflection{wo, detail::on_both_axes<T>(alpha)} {}
 
     // The surface, for its reflectance: ggx().brdf(wo, wi).
     [[nodiscard]] LUMIS_HD const Ggx<T>& ggx() const noexcept { return this->normals().ggx(); }

@@ -23,6 +23,8 @@ class GgxNdf {
 
     // alpha: roughness along x and y, see ggx_min_alpha.
     LUMIS_HD explicit GgxNdf(glm::vec<2, T> alpha) noexcept : ggx_{alpha} {}
+    // One roughness for both axes.
+    LUMIS_HD explicit GgxNdf(T alpha) noexcept : ggx_{alpha} {}
 
     // At roughness 1 the normals are cosine distributed; stretching them gives the rest. The textbook's
     // tan(theta) = alpha sqrt(u / (1 - u)) divides by 0 at u = 1. u.y = phi / 2 pi before stretching.
