@@ -57,7 +57,7 @@ template <Real R>
 template <Real R>
 [[nodiscard]] LUMIS_HD constexpr Direction<R> above_horizon_or_zero(const Direction<R>& wo) noexcept {
     LUMIS_ASSERT(real::all(detail::is_unit(wo)));
-    const Direction<R> unit = detail::unit_or(wo, 0);
+    const Direction<R> unit = detail::unit_or(wo, scalar_of<R>(0));
     const auto above = unit.z > 0;
     if (real::all(above)) return unit;
     return real::select(above, unit, Direction<R>{R(0)});

@@ -26,14 +26,15 @@ struct BySolidAngle {};  // Triangle, Parallelogram, Sphere
 // Shapes that a Sampling does not know. A disk is seen as an elliptic cone: a map even over that has no closed form.
 template <class S, class Sampling = ByArea>
 class AreaLight {
-    static_assert(!std::same_as<Sampling, ByArea> || Shape<S>,
-                  "lumis::AreaLight draws by area what is a lumis::Shape, see lumis/lights/surface.hpp");
     static_assert(!std::same_as<Sampling, BySolidAngle>,
                   "lumis::AreaLight draws Triangle, Parallelogram and Sphere by solid angle (include "
                   "lumis/lights/area_light_by_solid_angle.hpp), of lanes only Sphere; any other shape ByArea, a Disk "
                   "for one");
-    static_assert(std::same_as<Sampling, ByArea> || std::same_as<Sampling, BySolidAngle>,
-                  "lumis::AreaLight draws ByArea or BySolidAngle");
+    static_assert(std::same_as<Sampling, BySolidAngle>, "lumis::AreaLight draws ByArea or BySolidAngle");
+};
+template <class S>
+class AreaLight<S, ByArea> {
+    static_assert(detail::is_shape<S>(), "lumis::AreaLight draws by area what is a lumis::Shape");
 };
 
 // A shape without area, seen edge-on, from distance 0 or one whose square is out of range draws nothing.

@@ -18,6 +18,7 @@
 #include <concepts>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace lumis {
 
@@ -55,13 +56,40 @@ template <class S>
     return shape.seen_from(reference_point);
 }
 
+namespace detail {
+
 template <class S>
-concept Shape = Real<typename S::Scalar> &&
+concept HasScalar = Real<typename S::Scalar>;
+template <class S>
+concept SeenFromPoints = requires(const S& shape, const glm::vec<3, typename S::Scalar>& reference_point) {
+    seen_from(shape, reference_point);
+};
+
+}  // namespace detail
+
+template <class S>
+concept Shape = detail::HasScalar<S> && detail::SeenFromPoints<S> &&
     requires(const S& shape, const glm::vec<3, typename S::Scalar>& reference_point) {
     { seen_from(shape, reference_point) } -> SurfaceView<typename S::Scalar>;
 };
 
 namespace detail {
+
+// Whether S is a Shape: if not, what it lacks first is named.
+template <class S>
+[[nodiscard]] constexpr bool is_shape() noexcept {
+    static_assert(HasScalar<S>, "a lumis::Shape has a type Scalar: float, double or lanes of them");
+    if constexpr (HasScalar<S>) {
+        static_assert(SeenFromPoints<S>,
+                      "a lumis::Shape has seen_from(reference_point), or a function "
+                      "seen_from(shape, reference_point) in its namespace");
+        if constexpr (SeenFromPoints<S>) {
+            using View = decltype(seen_from(std::declval<const S&>(), glm::vec<3, typename S::Scalar>{}));
+            static_assert(SurfaceView<View, typename S::Scalar>, "seen_from yields a lumis::SurfaceView");
+        }
+    }
+    return Shape<S>;
+}
 
 // The hit where there is one, nowhere elsewhere.
 template <Real R>
