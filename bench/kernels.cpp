@@ -1,14 +1,17 @@
 // Drawing, sample/<strategy>/<form>/<scalar>, and densities, pdf/<strategy>/<form>/<scalar>, of directions that need no
-// table. once/<strategy>/...: a strategy is made for a new point and draws one sample, as at each vertex of a path.
+// table. once/<strategy>/...: a strategy is made for a new point and draws one sample, as at each vertex of a path; the
+// form `lanes` makes one strategy of lanes for as many points.
 #include "forms.hpp"
 #include "subjects.hpp"
 #include "textbook/directions.hpp"
 #include "textbook/ggx.hpp"
 #include "textbook/lights.hpp"
+#include <lumis/core/lanes.hpp>
 #include <lumis/lumis.hpp>
 
 #include <cstddef>
 #include <string>
+#include <type_traits>
 
 namespace {
 
@@ -35,6 +38,62 @@ void add_once(const std::string& name, Of of) {
     const auto origin = ready(glm::vec<3, T>{});
     add_form<T>("once/" + name + "/single", origin, uniforms, make_and_sample(std::type_identity<Strategy>{}));
     add_form<T>("once/" + name + "/textbook", origin, uniforms, make_and_sample(std::type_identity<Textbook>{}));
+}
+
+// The same of points in lanes, each of which draws its sample.
+template <class T, class StrategyOfLanes, class Of>
+void add_once_in_lanes(const std::string& name, Of of) {
+    using L = lumis::NativeLanes<T>;
+    const auto uniforms = lazily([] { return Uniforms<T>{few}; });
+    const auto origin = ready(glm::vec<3, T>{});
+    add_form<T>("once/" + name + "/lanes", origin, uniforms,
+                [=](const glm::vec<3, T>& from, const Uniforms<T>& u, std::size_t pass, Results<T>& out) {
+                    const auto x = part(u.x, pass), y = part(u.y, pass);
+                    const glm::vec<3, L> start{from};
+                    const Of what = of;
+                    for (std::size_t i = 0; i < batch; i += L::size) {
+                        one_at_a_time(i);
+                        const L ux = L::load(&x[i]), uy = L::load(&y[i]);
+                        const auto drawn = what.template operator()<StrategyOfLanes>(
+                                                   start + L{T(0.5)} * glm::vec<3, L>{uy, ux, L{T(0)}})
+                                               .sample(glm::vec<2, L>{ux, uy});
+                        drawn.value.x.store(&out.x[i]);
+                        drawn.value.y.store(&out.y[i]);
+                        drawn.value.z.store(&out.z[i]);
+                        drawn.pdf.store(&out.pdf[i]);
+                    }
+                });
+}
+
+// One shape in every lane.
+template <class L, class T>
+auto in_lanes(const lumis::Triangle<T>& shape) {
+    using V = glm::vec<3, L>;
+    return lumis::Triangle<L>{V{shape.a}, V{shape.b}, V{shape.c}};
+}
+template <class L, class T>
+auto in_lanes(const lumis::Parallelogram<T>& shape) {
+    using V = glm::vec<3, L>;
+    return lumis::Parallelogram<L>{V{shape.corner}, V{shape.edge_u}, V{shape.edge_v}};
+}
+template <class L, class T>
+auto in_lanes(const lumis::Disk<T>& shape) {
+    using V = glm::vec<3, L>;
+    return lumis::Disk<L>{V{shape.center}, V{shape.normal}, shape.radius};
+}
+template <class L, class T>
+auto in_lanes(const lumis::Sphere<T>& shape) {
+    return lumis::Sphere<L>{glm::vec<3, L>{shape.center}, shape.radius};
+}
+
+template <class T, class Sampling, class Shape>
+void add_light_in_lanes(const std::string& name, const Shape& shape) {
+    using L = lumis::NativeLanes<T>;
+    const auto shapes = in_lanes<L>(shape);
+    add_once_in_lanes<T, lumis::AreaLight<std::remove_const_t<decltype(shapes)>, Sampling>>(
+        name, [shapes]<class S>(const glm::vec<3, L>& from) {
+            return S{shapes, from};
+        });
 }
 
 // A light with its textbook counterpart.
@@ -103,6 +162,10 @@ void add_ggx_reflection() {
         "ggx_reflection", [scene]<class S>(const glm::vec<3, T>& aside) {
             return S{glm::normalize(scene.wo + aside), scene.alpha};
         });
+    using L = lumis::NativeLanes<T>;
+    add_once_in_lanes<T, lumis::GgxReflection<L>>("ggx_reflection", [scene]<class S>(const glm::vec<3, L>& aside) {
+        return S{glm::normalize(glm::vec<3, L>{scene.wo} + aside), glm::vec<2, L>{scene.alpha}};
+    });
 }
 
 // It spends a third uniform on the choice, so there is no batch of it.
@@ -153,6 +216,10 @@ void add_all() {
                                                                                           scene.triangle);
     add_light<T, AreaLight<Parallelogram<T>, BySolidAngle>, textbook::RectangleBySolidAngle<T>>(
         "rectangle_by_solid_angle", scene.rectangle);
+    add_light_in_lanes<T, ByArea>("triangle_by_area", scene.triangle);
+    add_light_in_lanes<T, ByArea>("rectangle_by_area", scene.rectangle);
+    add_light_in_lanes<T, ByArea>("disk_by_area", scene.disk);
+    add_light_in_lanes<T, BySolidAngle>("sphere_by_solid_angle", scene.sphere);
     add_strategy<T>("sphere_by_area", ready(AreaLight<Sphere<T>>{scene.sphere, scene.origin}), none);
 }
 
