@@ -106,6 +106,7 @@ class Lanes {
     LUMIS_INLINE friend Lanes copysign(Lanes magnitude, Lanes sign) noexcept {
         return of((bits(magnitude) & ~sign_bit()) | (bits(sign) & sign_bit()));
     }
+    [[nodiscard]] LUMIS_INLINE static Lanes opaque(Lanes x) noexcept { return Lanes{detail::opaque_lanes(x.v_)}; }
     [[nodiscard]] LUMIS_INLINE static Lanes rounded(Lanes x) noexcept { return Lanes{detail::rounded_lanes(x.v_)}; }
     [[nodiscard]] LUMIS_INLINE static Lanes mul_add(Lanes a, Lanes b, Lanes c) noexcept {
         return Lanes{a.v_ * b.v_ + c.v_};

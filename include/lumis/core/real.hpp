@@ -160,6 +160,21 @@ template <Real R>
     return {rounded(v.x), rounded(v.y), rounded(v.z)};
 }
 
+// a b as rounded, whatever it is added to. Where the machine can, compilers fuse one of two products into their difference:
+// that of equal products is then what rounding took from the other, and not 0.
+template <Real R>
+[[nodiscard]] LUMIS_INLINE inline R product(R a, std::type_identity_t<R> b) noexcept {
+#ifdef __CUDA_ARCH__
+    if constexpr (std::same_as<R, float>) return __fmul_rn(a, b);
+    if constexpr (std::same_as<R, double>) return __dmul_rn(a, b);
+#endif
+    if constexpr (std::floating_point<R>) {
+        return detail::opaque(a * b);
+    } else {
+        return R::opaque(a * b);
+    }
+}
+
 // The dot product, summed in the order of its terms whatever the flags are: x and y first, which are the small ones where
 // both vectors are near +z.
 template <Real R>

@@ -233,7 +233,9 @@ class LightSet {
         return nearest;
     }
 
-    [[nodiscard]] LUMIS_HD decltype(auto) light(std::size_t index) const { return detail::light_of(lights_, index); }
+    [[nodiscard]] LUMIS_HD decltype(auto) light(std::size_t index) const {
+        return detail::light_of(lights_, index);
+    }
 
     Lights lights_;
     Table table_;

@@ -105,6 +105,16 @@ template <class V>
     }
 }
 
+// Of which the compiler is to know nothing more, see real.hpp.
+template <class V>
+[[nodiscard]] LUMIS_INLINE inline V opaque_lanes(const V& x) noexcept {
+    if constexpr (IsArray<V>) {
+        return V::each([](auto part) { return opaque(part); }, x);
+    } else {
+        return opaque(x);
+    }
+}
+
 // A barrier against re-association, see real.hpp.
 template <class V>
 [[nodiscard]] LUMIS_INLINE inline V rounded_lanes(const V& x) noexcept {

@@ -42,10 +42,14 @@ template <Real T>
     }
 }
 
-// Each difference as rounded: of two vectors nearly in line it is all that is left of their products.
+// Products and differences as rounded: of two vectors nearly in line the differences are all that is left, and of two in
+// line they are 0.
 template <Real T>
 [[nodiscard]] LUMIS_INLINE inline glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) noexcept {
-    return real::rounded(glm::cross(a, b));
+    const auto component = [&](int i, int k) {
+        return real::rounded(T(real::product(a[i], b[k]) - real::product(a[k], b[i])));
+    };
+    return {component(1, 2), component(2, 0), component(0, 1)};
 }
 
 // Vertices are taken relative to the reference point before anything else, and edges before that, so that a scene far from
