@@ -2,6 +2,7 @@
 // The reflection Jacobian d(wm)/d(wi) = 1 / (4 wo.wm) (Walter et al. 2007, eq. 14) lives here and nowhere else.
 #pragma once
 
+#include "lumis/core/detail/in_lanes.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 
@@ -50,7 +51,7 @@ class Reflected {
         } else {
             const R length = real::length(half);
             const R divisor = real::divisor_where(length > 0, length);  // 0 for wi == -wo
-            density = real::divide(normals_.pdf(real::divide(half, divisor)), 2 * divisor);
+            density = real::divide(detail::pdf_in<R>(normals_, real::divide(half, divisor)), 2 * divisor);
         }
         return density_or_zero(real::select(wi.z > 0 && wo_.z > 0, density, 0));
     }
@@ -70,7 +71,7 @@ class Reflected {
         if constexpr (requires { normals_.along_normal(u); }) {
             return normals_.along_normal(u);
         } else {
-            const auto drawn = normals_.sample(u);
+            const auto drawn = detail::sample_in<R>(normals_, u);
             return real::select(drawn.pdf > 0, Direction<R>(drawn.value), Direction<R>{});
         }
     }
