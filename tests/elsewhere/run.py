@@ -151,7 +151,7 @@ class Dispatch:
     def attempt(self, folder):
         for header in HEADERS:
             text = (ROOT / "include" / header).read_text()
-            outside = re.findall(r"^namespace lumis(?!::inline LUMIS_ISA).*", text, re.M)
+            outside = re.findall(r"^namespace lumis(?!::LUMIS_ISA).*", text, re.M)
             if outside or ("LUMIS_ISA" in text and "platform.hpp" not in text + header):
                 raise Failed(f"{header} is not in the inline namespace, or includes no platform.hpp: {outside}")
         sources = HERE / "dispatch"

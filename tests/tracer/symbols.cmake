@@ -7,7 +7,9 @@ foreach(object IN LISTS OBJECTS)
         COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
 
+# lumis::Name stands for a name in whatever namespace of Lumis.
 function(expect scene contains pattern)
+    string(REPLACE "lumis::" "lumis::([a-z0-9_]+::)*" pattern ${pattern})
     string(REGEX MATCHALL "${pattern}" found "${symbols_of_${scene}}")
     list(LENGTH found count)
     message(STATUS "${scene}: ${pattern} occurs ${count} times")

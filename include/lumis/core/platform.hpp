@@ -11,8 +11,8 @@
 //   LUMIS_HAS_FENCE        whether __arithmetic_fence can be called
 //   LUMIS_VECTOR_BYTES     how large the machine's registers for vectors are
 //   LUMIS_HAS_EXCEPTIONS   defined unless exceptions are off (-fno-exceptions), see core/throw.hpp
-//   LUMIS_ISA              the inline namespace of all that Lumis defines: code for different machines has different names, so
-//                          that a program may hold both (docs/platforms.md)
+//   LUMIS_ISA              the inline namespace of all that Lumis defines, as in `namespace lumis::LUMIS_ISA {`: code for different
+//                          machines has different names, so that a program may hold both (docs/platforms.md)
 //   LUMIS_LIFETIME_BOUND   behind a parameter that a result refers to: clang++ warns where the result outlives it
 #pragma once
 
@@ -85,9 +85,9 @@
 #define LUMIS_HAS_EXCEPTIONS
 #endif
 
-// LUMIS_ISA is put together from what tells apart the code that a compiler makes of one source: instructions that not every
+// LUMIS_ISA_NAME is put together from what tells apart the code that a compiler makes of one source: instructions that not every
 // processor has, and flags that change what is computed. A host may name it itself.
-#ifndef LUMIS_ISA
+#ifndef LUMIS_ISA_NAME
 
 #if defined(__AVX512VBMI__) || defined(__AVX512IFMA__)
 #define LUMIS_ISA_VECTORS avx512vbmi
@@ -154,11 +154,12 @@
 #endif
 
 #if defined(__CUDACC__)
-#define LUMIS_ISA cuda
+#define LUMIS_ISA_NAME cuda
 #else
 #define LUMIS_JOIN_EXPANDED(a, b, c, d, e) a##b##c##d##e
 #define LUMIS_JOIN(a, b, c, d, e) LUMIS_JOIN_EXPANDED(a, b, c, d, e)
-#define LUMIS_ISA LUMIS_JOIN(LUMIS_ISA_VECTORS, LUMIS_ISA_SUMS, LUMIS_ISA_BITS, LUMIS_ISA_MATHS, LUMIS_ISA_LANES)
+#define LUMIS_ISA_NAME LUMIS_JOIN(LUMIS_ISA_VECTORS, LUMIS_ISA_SUMS, LUMIS_ISA_BITS, LUMIS_ISA_MATHS, LUMIS_ISA_LANES)
 #endif
 
 #endif
+#define LUMIS_ISA inline LUMIS_ISA_NAME

@@ -5,7 +5,7 @@
 #include <concepts>
 
 // A host's own forward declaration.
-namespace lumis::inline LUMIS_ISA {
+namespace lumis::LUMIS_ISA {
 template <std::floating_point T>
 class EnvironmentMap;
 }
