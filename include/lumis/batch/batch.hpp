@@ -14,6 +14,7 @@
 #include "lumis/core/detail/in_lanes.hpp"
 #include "lumis/core/detail/spannable.hpp"
 #include "lumis/core/lanes.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 
 #include <array>
@@ -22,7 +23,7 @@
 #include <span>
 #include <type_traits>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 // Pairs of uniforms in [0, 1), each component in an array of its own.
 template <class T>
@@ -255,4 +256,4 @@ void mis_weight_n(const H& heuristic, std::type_identity_t<std::span<const T>> o
     mis_weight_n(heuristic, 0, std::array{own, other}, weights);
 }
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

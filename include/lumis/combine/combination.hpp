@@ -19,7 +19,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 namespace detail {
 
@@ -271,4 +271,4 @@ class Combination {
     detail::Parts<First, Rest...> strategies_;
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -21,7 +21,7 @@
 #include <span>
 #include <utility>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 namespace detail {
 
@@ -324,4 +324,4 @@ template <class H, Real R>
     return detail::weigh(heuristic, 0, std::span{densities});
 }
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

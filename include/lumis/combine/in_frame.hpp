@@ -9,7 +9,7 @@
 
 #include <utility>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 // Held is the local strategy or, for one that owns memory, a reference to it.
 template <class HeldStrategy>
@@ -70,4 +70,4 @@ template <class S>
     return InFrame<detail::Held<S&>>{frame, local};
 }
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 // An integrand is called with the point if it takes one, else with the whole sample. A point of a delta strategy comes
 // with a tag, which asks for the coefficient.
@@ -182,4 +182,4 @@ template <class Mask, int N, class R, glm::qualifier Q>
 
 }  // namespace detail
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

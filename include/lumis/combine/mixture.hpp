@@ -18,7 +18,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <class First, class... Rest>
     requires Composable<First, Rest...>
@@ -192,4 +192,4 @@ class Mixture {
     detail::Parts<First, Rest...> parts_;
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -4,7 +4,7 @@
 #include "lumis/combine/combination.hpp"
 #include "lumis/core/platform.hpp"
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <class H, class... S>
 class MultiSample : public Combination<H, S...> {
@@ -65,4 +65,4 @@ template <class H, class First, class... Rest>
 template <class... S>
 void multi_sample(Take<S>... the_first_argument_must_be_a_heuristic) = delete;
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

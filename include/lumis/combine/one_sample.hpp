@@ -4,7 +4,7 @@
 #include "lumis/combine/combination.hpp"
 #include "lumis/core/platform.hpp"
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <class H, class... S>
 class OneSample : public Combination<H, S...> {
@@ -86,4 +86,4 @@ template <class H, class First, class... Rest>
 template <class... S>
 void one_sample(Choose<S>... the_first_argument_must_be_a_heuristic) = delete;
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

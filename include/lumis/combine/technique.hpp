@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 // std::reference_wrapper of a strategy, without the header that defines it.
 template <class W>
@@ -144,4 +144,4 @@ concept SameMeasures = (SameMeasure<std::remove_cvref_t<Rest>, std::remove_cvref
 template <class First, class... Rest>
 concept Composable = SameScalars<First, Rest...> && SamePoints<First, Rest...> && SameMeasures<First, Rest...>;
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -16,7 +16,7 @@
 #include <numbers>
 #include <type_traits>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 namespace detail {
 
@@ -169,4 +169,4 @@ template <Real R>
 
 }  // namespace real
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

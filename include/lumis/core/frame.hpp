@@ -12,7 +12,7 @@
 #include <concepts>
 #include <limits>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <Real T = float>
 class Frame {
@@ -90,4 +90,4 @@ class Frame {
     Direction<T> tangent_, bitangent_, normal_;
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

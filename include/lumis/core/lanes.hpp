@@ -16,7 +16,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 // A truth for each lane: an integer with all of its bits set, or none.
 template <std::signed_integral Bits, std::size_t N>
@@ -135,7 +135,7 @@ using NativeLanes = Lanes<T, LUMIS_VECTOR_BYTES / sizeof(T)>;
 using NativeLanes = Lanes<T, 1>;
 #endif
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA
 
 // GLM asks whether its numbers are floating-point ones.
 template <std::floating_point T, std::size_t N>

@@ -6,7 +6,7 @@
 
 #include <concepts>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 // (u, v) of a direction, of any length whose square is in range; both in [0, 1], and NaN for a NaN. The angle to +y is the
 // arc tangent of sqrt(x^2 + z^2) over y, not acos(y): near the poles a float y has no digits left.
@@ -26,4 +26,4 @@ template <Real R>
     return {-sin_theta * circle.x, pole * (1 - versine), -sin_theta * circle.y};
 }
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -6,7 +6,7 @@
 
 #include <type_traits>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 namespace measure {
 struct SolidAngle {};  // of directions, in steradians
@@ -24,4 +24,4 @@ template <Real R>
     return density_or_zero(real::quotient_where(cosine > 0, R(pdf_area * distance * distance), cosine));
 }
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -29,7 +29,7 @@
 #include <concepts>
 #include <type_traits>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 namespace detail {
 
@@ -328,4 +328,4 @@ template <class Mask>
 
 }  // namespace real
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -12,7 +12,7 @@
 #include <concepts>
 #include <limits>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 // A unit vector that points away from the shaded point.
 template <Real R>
@@ -63,4 +63,4 @@ template <Real R>
     return real::select(above, unit, Direction<R>{R(0)});
 }
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -1,11 +1,13 @@
 // The floating-point types that kernels are made for.
 #pragma once
 
+#include "lumis/core/platform.hpp"
+
 #include <concepts>
 #include <cstdint>
 #include <type_traits>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 // long double is refused: lattices of uniforms, polynomials and tolerances are those of 24 and of 53 bits.
 template <class T>
@@ -19,4 +21,4 @@ using BitsOf = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
 
 }  // namespace detail
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

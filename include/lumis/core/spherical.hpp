@@ -6,7 +6,7 @@
 #include "lumis/core/platform.hpp"
 #include "lumis/core/sample.hpp"
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 // sin(theta) from 1 - cos(theta) in [0, 2].
 template <Real R>
@@ -29,4 +29,4 @@ template <Real R>
     return {sin_theta * circle.x, sin_theta * circle.y, 1 - versine};
 }
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

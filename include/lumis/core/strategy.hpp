@@ -11,7 +11,7 @@
 
 #include <concepts>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 // The uniforms that S spends on a sample, each in [0, 1); exactly 1 is tolerated.
 template <class S>
@@ -96,4 +96,4 @@ concept AnySample = requires(const S s) {
     s.pdf;
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

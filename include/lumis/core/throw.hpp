@@ -24,7 +24,7 @@
 #endif
 #endif
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 // Every table's complaint goes through here.
 [[noreturn]] inline void refuse(const std::string& message) {
@@ -32,4 +32,4 @@ namespace lumis::detail {
     std::abort();
 }
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

@@ -18,7 +18,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 // next<N>() yields N uniforms at once; x is drawn first. What it returns is converted to glm::vec<N, T>.
 template <class U, class T>
@@ -157,4 +157,4 @@ template <FloatOrDouble T, class F>
     return UniformsFrom<T, F>{std::move(nullary)};
 }
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -9,7 +9,7 @@
 #include <concepts>
 #include <numbers>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <Real T = float>
 struct CosineHemisphere {
@@ -37,4 +37,4 @@ struct CosineHemisphere {
     }
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

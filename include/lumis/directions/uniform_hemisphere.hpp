@@ -9,7 +9,7 @@
 #include <concepts>
 #include <numbers>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <Real T = float>
 struct UniformHemisphere {
@@ -36,4 +36,4 @@ struct UniformHemisphere {
     }
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

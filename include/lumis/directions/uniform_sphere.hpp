@@ -8,7 +8,7 @@
 #include <concepts>
 #include <numbers>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <Real T = float>
 struct UniformSphere {
@@ -33,4 +33,4 @@ struct UniformSphere {
     }
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -18,7 +18,7 @@
 #include <limits>
 #include <utility>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 struct ByArea {};        // every shape
 struct BySolidAngle {};  // Triangle, Parallelogram, Sphere
@@ -107,4 +107,4 @@ class AreaLight<S, ByArea> {
 template <class S>
 AreaLight(S, glm::vec<3, typename S::Scalar>) -> AreaLight<S, ByArea>;
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

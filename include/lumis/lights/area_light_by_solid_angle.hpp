@@ -13,7 +13,7 @@
 #include <optional>
 #include <type_traits>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 namespace detail {
 
@@ -255,4 +255,4 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     T solid_angle_, pdf_, unit_;
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -7,7 +7,7 @@
 
 #include <limits>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <std::floating_point T = float>
 class DirectionalLight {
@@ -40,4 +40,4 @@ class DirectionalLight {
     Direction<T> direction_;
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

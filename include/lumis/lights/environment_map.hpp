@@ -31,7 +31,7 @@
 #include <utility>
 #include <vector>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 // How the host looks radiance up. Bilinear spreads a texel's light over its neighbours: texel centres lie at half
 // integers, u wraps around, v is clamped.
@@ -314,4 +314,4 @@ template <std::integral W, std::integral H, detail::Spannable R, class ForEachRo
 AliasEnvironmentMap(W, H, const R&, EnvironmentOptions = {}, const ForEachRow& = {})
     -> AliasEnvironmentMap<detail::ElementOf<R>>;
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -22,7 +22,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 namespace detail {
 
@@ -247,4 +247,4 @@ LightSet(Lights&&, Weights&&) -> LightSet<detail::Held<Lights>, AliasTable<detai
 template <class Lights, class Table>
 LightSet(Lights&&, Table&&) -> LightSet<detail::Held<Lights>, detail::Held<Table>>;
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <std::floating_point T = float>
 class PointLight {
@@ -45,4 +45,4 @@ class PointLight {
 template <std::floating_point T>
 PointLight(glm::vec<3, T>, glm::vec<3, T>) -> PointLight<T>;
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -7,7 +7,7 @@
 
 #include <concepts>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <Real T = float>
 struct Triangle {
@@ -74,4 +74,4 @@ template <Real T>
 Triangle(glm::vec<3, T>, glm::vec<3, T>, glm::vec<3, T>) -> Triangle<T>;
 template <Real T>
 Parallelogram(glm::vec<3, T>, glm::vec<3, T>, glm::vec<3, T>) -> Parallelogram<T>;
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -20,7 +20,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 // A point relative to the reference point, and the cosine at the light times its distance; 0: edge-on, or hidden.
 template <Real R>
@@ -106,4 +106,4 @@ template <Real R>
 
 }  // namespace detail
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

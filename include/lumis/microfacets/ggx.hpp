@@ -14,7 +14,7 @@
 #include <numbers>
 #include <type_traits>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 // Roughness is raised to this, each axis alone: below it a float direction cannot resolve the lobe (at 1e-4 its last
 // place moves the density by 0.1 %). For a smoother surface use PerfectReflection.
@@ -126,4 +126,4 @@ class Ggx {
     glm::vec<2, T> inverse_alpha_{};  // 0 if out of range
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <concepts>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 namespace detail {
 
@@ -47,4 +47,4 @@ struct GgxBoundedReflection : Reflected<detail::GgxBoundedNormals<T>> {
     [[nodiscard]] LUMIS_HD const Ggx<T>& ggx() const noexcept { return this->normals().ggx(); }
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

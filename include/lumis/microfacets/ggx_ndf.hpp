@@ -11,7 +11,7 @@
 
 #include <concepts>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <Real T = float>
 class GgxNdf {
@@ -57,4 +57,4 @@ class GgxNdf {
     Ggx<T> ggx_;
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

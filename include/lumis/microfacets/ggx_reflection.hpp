@@ -9,7 +9,7 @@
 
 #include <concepts>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <Real T = float>
 struct GgxReflection : Reflected<GgxVndf<T>> {
@@ -24,4 +24,4 @@ struct GgxReflection : Reflected<GgxVndf<T>> {
     [[nodiscard]] LUMIS_HD const Ggx<T>& ggx() const noexcept { return this->normals().ggx(); }
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

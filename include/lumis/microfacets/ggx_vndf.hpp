@@ -7,7 +7,7 @@
 
 #include <concepts>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <Real T = float>
 struct GgxVndf : detail::GgxCap<T> {
@@ -20,4 +20,4 @@ struct GgxVndf : detail::GgxCap<T> {
         : GgxVndf{wo, detail::on_both_axes<T>(alpha)} {}
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

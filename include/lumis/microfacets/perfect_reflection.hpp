@@ -4,7 +4,7 @@
 #include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <Real T = float>
 class PerfectReflection {
@@ -32,4 +32,4 @@ class PerfectReflection {
     Direction<T> wo_;
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -6,7 +6,7 @@
 #include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <Strategy Normals>
 class Reflected {
@@ -80,4 +80,4 @@ class Reflected {
     Normals normals_;
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

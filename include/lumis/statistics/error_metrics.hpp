@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <span>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 // Mean of (estimate - reference)^2.
 template <detail::Spannable Values>
@@ -46,4 +46,4 @@ template <detail::Spannable Values>
     return sum / static_cast<double>(e.size());
 }
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

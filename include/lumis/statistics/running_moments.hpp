@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <std::floating_point T = double>
 class RunningMoments {
@@ -91,4 +91,4 @@ class RunningMoments {
     double squares_{};  // sum of squared deviations from the mean
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -19,7 +19,7 @@
 #include <span>
 #include <type_traits>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 namespace detail {
 
@@ -155,4 +155,4 @@ class FineAliasTable : public detail::BasicFineAliasTable<AliasTable<double>> {
     [[nodiscard]] FineAliasTableView view(auto&& place) const { return FineAliasTableView{table_.view(place)}; }
 };
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

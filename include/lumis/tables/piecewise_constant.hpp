@@ -17,7 +17,7 @@
 #include <span>
 #include <type_traits>
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 namespace detail {
 
@@ -206,4 +206,4 @@ PiecewiseConstant1D(const R&) -> PiecewiseConstant1D<detail::ElementOf<R>>;
 template <std::integral W, std::integral H, detail::Spannable R, class ForEachRow = detail::InOrder>
 PiecewiseConstant2D(W, H, const R&, const ForEachRow& = {}) -> PiecewiseConstant2D<detail::ElementOf<R>>;
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -1,6 +1,7 @@
 // The law that sample and pdf agree: what is drawn is well formed, and pdf gives it the density it was drawn with.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/core/uniforms.hpp"
 #include "lumis/testing/points.hpp"
@@ -18,7 +19,7 @@
 #include <random>
 #include <utility>
 
-namespace lumis::testing {
+namespace lumis::LUMIS_ISA::testing {
 
 struct AgreementOptions {
     // All in units in the last place. By how much a point may be off from the one that the density belongs to: the
@@ -143,4 +144,4 @@ template <Strategy S>
     return result;
 }
 
-}  // namespace lumis::testing
+}  // namespace lumis::LUMIS_ISA::testing

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lumis/batch/batch.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/core/uniforms.hpp"
 #include "lumis/testing/agreement.hpp"
@@ -20,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace lumis::testing {
+namespace lumis::LUMIS_ISA::testing {
 
 namespace detail {
 
@@ -196,4 +197,4 @@ template <int N, class Estimator, class F>
     return result;
 }
 
-}  // namespace lumis::testing
+}  // namespace lumis::LUMIS_ISA::testing

@@ -1,6 +1,7 @@
 // A chart's square divided into cells, and how much of a density each holds.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/testing/charts.hpp"
 #include "lumis/testing/quadrature.hpp"
 
@@ -11,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace lumis::testing {
+namespace lumis::LUMIS_ISA::testing {
 
 template <class Point>
 class Cells {
@@ -87,4 +88,4 @@ class Cells {
     std::vector<double> s_, t_;
 };
 
-}  // namespace lumis::testing
+}  // namespace lumis::LUMIS_ISA::testing

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lumis/core/frame.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/sample.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/testing/points.hpp"
@@ -19,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace lumis::testing {
+namespace lumis::LUMIS_ISA::testing {
 
 template <class Point>
 struct Chart {
@@ -183,4 +184,4 @@ template <Strategy S>
         [&strategy](const Point& x) { return static_cast<double>(strategy.pdf(static_cast<typename S::Point>(x))); }};
 }
 
-}  // namespace lumis::testing
+}  // namespace lumis::LUMIS_ISA::testing

@@ -1,6 +1,7 @@
 // The law that samples are distributed as the density says: Pearson's chi-square test over the cells of a chart.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/core/uniforms.hpp"
 #include "lumis/testing/cells.hpp"
@@ -19,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace lumis::testing {
+namespace lumis::LUMIS_ISA::testing {
 
 struct ChiSquareOptions {
     int samples = 100'000;
@@ -197,4 +198,4 @@ template <Strategy S, class Point = InDouble<typename S::Point>>
     return chi_square(strategy, expectation(density_of(strategy), chart), options);
 }
 
-}  // namespace lumis::testing
+}  // namespace lumis::LUMIS_ISA::testing

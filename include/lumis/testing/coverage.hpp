@@ -3,6 +3,7 @@
 // leaving a part out.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/testing/agreement.hpp"
 #include "lumis/testing/charts.hpp"
@@ -16,7 +17,7 @@
 #include <span>
 #include <type_traits>
 
-namespace lumis::testing {
+namespace lumis::LUMIS_ISA::testing {
 
 struct CoverageOptions {
     int points = 4096;  // over the whole chart, and 16 in each panel between its edges; one for an index
@@ -107,4 +108,4 @@ template <Strategy S, class F, class Point = InDouble<typename S::Point>>
     return result;
 }
 
-}  // namespace lumis::testing
+}  // namespace lumis::LUMIS_ISA::testing

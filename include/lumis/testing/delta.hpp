@@ -1,6 +1,7 @@
 // The law of delta strategies: no density anywhere, and a probability where others report one.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/testing/points.hpp"
 #include "lumis/testing/result.hpp"
@@ -10,7 +11,7 @@
 #include <concepts>
 #include <limits>
 
-namespace lumis::testing {
+namespace lumis::LUMIS_ISA::testing {
 
 // pdf is 0 at what is drawn, around it, and everywhere else; what is drawn is finite, of unit length, and has a
 // probability in [0, 1]. number: how often it was not so.
@@ -42,4 +43,4 @@ template <DeltaStrategy S>
     return result;
 }
 
-}  // namespace lumis::testing
+}  // namespace lumis::LUMIS_ISA::testing

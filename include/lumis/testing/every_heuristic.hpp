@@ -5,6 +5,7 @@
 #include "lumis/combine/heuristics.hpp"
 #include "lumis/combine/multi_sample.hpp"
 #include "lumis/combine/one_sample.hpp"
+#include "lumis/core/platform.hpp"
 #include "lumis/core/uniforms.hpp"
 #include "lumis/testing/result.hpp"
 #include "lumis/testing/unbiased.hpp"
@@ -20,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace lumis::testing {
+namespace lumis::LUMIS_ISA::testing {
 
 // Calls visit(heuristic, name) for all that weigh by densities.
 template <class Visit>
@@ -156,4 +157,4 @@ template <class F, class Answer, class First, class... Rest>
     return worst.result();
 }
 
-}  // namespace lumis::testing
+}  // namespace lumis::LUMIS_ISA::testing

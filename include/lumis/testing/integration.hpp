@@ -1,6 +1,7 @@
 // The law that a density integrates to the probability that something is drawn: 1, unless some uniforms draw nothing.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/core/uniforms.hpp"
 #include "lumis/testing/cells.hpp"
@@ -19,7 +20,7 @@
 #include <string>
 #include <utility>
 
-namespace lumis::testing {
+namespace lumis::LUMIS_ISA::testing {
 
 // A narrow lobe magnifies the rounding of directions in float.
 template <std::floating_point T>
@@ -77,4 +78,4 @@ template <Strategy S, class Point = InDouble<typename S::Point>>
     return {passed, error, std::move(message), decided};
 }
 
-}  // namespace lumis::testing
+}  // namespace lumis::LUMIS_ISA::testing

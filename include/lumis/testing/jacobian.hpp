@@ -3,6 +3,7 @@
 // where a Jacobian is wrong.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/core/uniforms.hpp"
 #include "lumis/testing/points.hpp"
@@ -18,7 +19,7 @@
 #include <optional>
 #include <type_traits>
 
-namespace lumis::testing {
+namespace lumis::LUMIS_ISA::testing {
 
 namespace detail {
 
@@ -255,4 +256,4 @@ template <MapsUniforms S>
     return result;
 }
 
-}  // namespace lumis::testing
+}  // namespace lumis::LUMIS_ISA::testing

@@ -1,6 +1,7 @@
 // What the laws need to know of a strategy's points: directions, points of [0,1]^d or of space, and indices.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/sample.hpp"
 
 #include <glm/geometric.hpp>
@@ -9,7 +10,7 @@
 #include <concepts>
 #include <type_traits>
 
-namespace lumis::testing {
+namespace lumis::LUMIS_ISA::testing {
 
 namespace detail {
 
@@ -58,4 +59,4 @@ template <class Point>
 
 }  // namespace detail
 
-}  // namespace lumis::testing
+}  // namespace lumis::LUMIS_ISA::testing

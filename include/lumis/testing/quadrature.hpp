@@ -2,6 +2,8 @@
 // jump, and rise like an inverse square root. Gauss-Kronrod in both directions; the edge is found along s by bisection.
 #pragma once
 
+#include "lumis/core/platform.hpp"
+
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
@@ -14,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace lumis::testing {
+namespace lumis::LUMIS_ISA::testing {
 
 struct Accuracy {
     double absolute;           // halving a piece stops when its estimated error is below this
@@ -156,4 +158,4 @@ template <class F, class IsGood>
     return result;
 }
 
-}  // namespace lumis::testing
+}  // namespace lumis::LUMIS_ISA::testing

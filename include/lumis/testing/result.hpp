@@ -4,6 +4,8 @@
 //     CHECK_MESSAGE(law.passed, law.message);               // doctest
 #pragma once
 
+#include "lumis/core/platform.hpp"
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -16,7 +18,7 @@
 #include <string>
 #include <type_traits>
 
-namespace lumis::testing {
+namespace lumis::LUMIS_ISA::testing {
 
 struct LawResult {
     bool passed{};
@@ -112,4 +114,4 @@ struct Significance {
     }
 };
 
-}  // namespace lumis::testing
+}  // namespace lumis::LUMIS_ISA::testing

@@ -1,6 +1,7 @@
 // The law that invert undoes sample.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/core/uniforms.hpp"
 #include "lumis/testing/agreement.hpp"
@@ -12,7 +13,7 @@
 #include <limits>
 #include <random>
 
-namespace lumis::testing {
+namespace lumis::LUMIS_ISA::testing {
 
 struct RoundTripOptions {
     // All in units in the last place. By how much a point may be off from the one that u draws: what invert answers for
@@ -72,4 +73,4 @@ template <InvertibleStrategy S>
     return result;
 }
 
-}  // namespace lumis::testing
+}  // namespace lumis::LUMIS_ISA::testing

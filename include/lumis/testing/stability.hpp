@@ -2,6 +2,7 @@
 // in float it is not far from what it is in double.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
 #include "lumis/core/uniforms.hpp"
 #include "lumis/testing/agreement.hpp"
@@ -15,7 +16,7 @@
 #include <limits>
 #include <random>
 
-namespace lumis::testing {
+namespace lumis::LUMIS_ISA::testing {
 
 namespace detail {
 
@@ -183,4 +184,4 @@ template <class Parameters, class Make>
     return result;
 }
 
-}  // namespace lumis::testing
+}  // namespace lumis::LUMIS_ISA::testing

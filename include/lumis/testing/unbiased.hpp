@@ -1,6 +1,7 @@
 // The law that an estimator's mean is the answer.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/statistics/running_moments.hpp"
 #include "lumis/testing/result.hpp"
 
@@ -14,7 +15,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace lumis::testing {
+namespace lumis::LUMIS_ISA::testing {
 
 struct UnbiasedOptions {
     std::int64_t samples = 1'000'000;
@@ -116,4 +117,4 @@ template <class Estimate, class Answer>
     return worst;
 }
 
-}  // namespace lumis::testing
+}  // namespace lumis::LUMIS_ISA::testing

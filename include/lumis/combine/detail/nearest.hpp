@@ -15,7 +15,7 @@
 #include <limits>
 #include <utility>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 // Combined strategies know the nearest light if there is a light among them, and each whose samples have a distance
 // tells it along any direction. A delta light hides nothing: its samples keep the distance that they come with.
@@ -65,4 +65,4 @@ template <Real R>
     }
 }
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

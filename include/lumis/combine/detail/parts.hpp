@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 // S may be a reference, see Held.
 template <std::size_t I, class S>
@@ -35,4 +35,4 @@ struct NthStrategy : NthStrategy<I - 1, Rest...> {};
 template <class First, class... Rest>
 struct NthStrategy<0, First, Rest...> : std::type_identity<std::remove_cvref_t<First>> {};
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

@@ -11,7 +11,7 @@
 #include <concepts>
 #include <limits>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 // Quiet: comparing a NaN for equality raises no exception.
 template <Real T>
@@ -77,4 +77,4 @@ template <Real T>
     return scaled_to_unit(v, none);
 }
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 // What an array is made of.
 #ifdef LUMIS_HAS_VECTORS
@@ -102,4 +102,4 @@ struct Array {
     }
 };
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

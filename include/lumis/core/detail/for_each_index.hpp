@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 // Calls visit(0), visit(1), ..., visit(N - 1) with the index as a constant.
 template <std::size_t N, class Visit>
@@ -18,4 +18,4 @@ LUMIS_HD constexpr void for_each_index(Visit visit) {
     visit_all(std::make_index_sequence<N>{});
 }
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

@@ -3,9 +3,11 @@
 // owner must then outlive the combination. An rvalue is always moved in.
 #pragma once
 
+#include "lumis/core/platform.hpp"
+
 #include <type_traits>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 template <class S>
 concept HeldByReference = std::is_lvalue_reference_v<S> && !std::is_trivially_destructible_v<std::remove_cvref_t<S>>;
@@ -13,4 +15,4 @@ concept HeldByReference = std::is_lvalue_reference_v<S> && !std::is_trivially_de
 template <class S>
 using Held = std::conditional_t<HeldByReference<S>, const std::remove_cvref_t<S>&, std::remove_cvref_t<S>>;
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

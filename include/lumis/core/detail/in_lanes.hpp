@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <type_traits>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 template <class Point, class T, class R>
 struct PointIn : std::type_identity<std::array<Point, R::size>> {};
@@ -182,4 +182,4 @@ template <Real R, class S>
     }
 }
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

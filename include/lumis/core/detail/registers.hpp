@@ -8,7 +8,7 @@
 
 #ifdef LUMIS_HAS_VECTORS
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 template <class T, std::size_t N>
 struct RegisterOf {
@@ -84,6 +84,6 @@ LUMIS_INLINE inline bool any_sign(RegisterOf<float, 16>::type x) noexcept {
 }
 #endif
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail
 
 #endif

@@ -2,12 +2,14 @@
 // long to compile as all of Lumis.
 #pragma once
 
+#include "lumis/core/platform.hpp"
+
 #include <concepts>
 #include <span>
 #include <type_traits>
 #include <utility>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 template <class R>
 concept Spannable = requires(const R& range) {
@@ -26,4 +28,4 @@ template <Spannable R>
     return std::span{range};
 }
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

@@ -15,7 +15,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 template <class T, std::size_t N>
 struct VectorOf {
@@ -174,4 +174,4 @@ template <class V>
     }
 }
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

@@ -14,7 +14,7 @@
 #include <limits>
 #include <numbers>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 template <Real T>
 class DiskView {
@@ -71,13 +71,13 @@ class DiskView {
     T height_{0};  // of the plane over the reference point, along the normal; signed
 };
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <Real T>
 [[nodiscard]] LUMIS_HD auto seen_from(const Disk<T>& shape, const glm::vec<3, T>& reference_point) noexcept {
     return detail::DiskView<T>{shape, reference_point};
 }
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -17,7 +17,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 template <Real T>
 [[nodiscard]] LUMIS_HD T longest_component(const glm::vec<3, T>& v) noexcept {
@@ -99,4 +99,4 @@ struct FlatShape {
     }
 };
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

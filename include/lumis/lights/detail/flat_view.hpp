@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 template <class Shape>
 class FlatView {
@@ -96,9 +96,9 @@ class FlatView {
     T rounding_u_, rounding_v_;  // by how much those products move when w is rounded
 };
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <Real T>
 [[nodiscard]] LUMIS_INLINE inline auto seen_from(const Triangle<T>& shape,
@@ -111,4 +111,4 @@ template <Real T>
     return detail::FlatView<Parallelogram<T>>{shape, reference_point};
 }
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

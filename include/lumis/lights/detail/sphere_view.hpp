@@ -16,7 +16,7 @@
 #include <limits>
 #include <numbers>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 template <Real T>
 class SphereView {
@@ -135,9 +135,9 @@ class SphereView {
     T chord_;        // longest |w - axis| of a direction w that points at the sphere
 };
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail
 
-namespace lumis {
+namespace lumis::LUMIS_ISA {
 
 template <Real T>
 [[nodiscard]] LUMIS_INLINE inline auto seen_from(const Sphere<T>& shape,
@@ -145,4 +145,4 @@ template <Real T>
     return detail::SphereView<T>{shape, reference_point};
 }
 
-}  // namespace lumis
+}  // namespace lumis::LUMIS_ISA

@@ -20,7 +20,7 @@
 #include <limits>
 #include <numbers>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 template <std::floating_point T>
 class SphericalRectangle {
@@ -169,4 +169,4 @@ class SphericalRectangle {
     bool has_digits_{false};
 };
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

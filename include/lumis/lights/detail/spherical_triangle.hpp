@@ -34,7 +34,7 @@
 #include <limits>
 #include <numbers>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 template <std::floating_point T>
 class SphericalTriangle {
@@ -187,4 +187,4 @@ class SphericalTriangle {
     glm::vec<2, T> end_{1, 0};        // (cos, sin) of E / 2 at c
 };
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

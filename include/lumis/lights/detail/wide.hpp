@@ -2,11 +2,12 @@
 // edge away from the plane, a height formed of float products is wrong by a tenth. float coordinates differ exactly in double.
 #pragma once
 
+#include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 
 #include <type_traits>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 template <Real T>
 struct WideOf : std::type_identity<T> {};
@@ -20,4 +21,4 @@ struct WideOf<L> : std::type_identity<typename L::template Of<double>> {
 template <Real T>
 using Wide = typename WideOf<T>::type;
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

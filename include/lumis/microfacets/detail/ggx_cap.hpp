@@ -11,7 +11,7 @@
 
 #include <concepts>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 template <Real T>
 class GgxCap {
@@ -84,4 +84,4 @@ class GgxCap {
     T masking_{0};  // G1(wo) / wo.z, which is finite at grazing; 0 on and below the horizon
 };
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

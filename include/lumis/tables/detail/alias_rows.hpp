@@ -25,7 +25,7 @@
 #include <span>
 #include <vector>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 //     own_and_alias    | alias: the other bits | own counts: the low own_bits_ |
 //     heavy_and_kind   | light: bit 31 | counts of the heavy entry, less 1: bits 0 to 30 |
@@ -169,4 +169,4 @@ class AliasRows {
     Array<AliasBin> bins_;
 };
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

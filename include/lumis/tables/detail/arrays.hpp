@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 template <class Element>
 using Owned = std::vector<Element>;
@@ -44,4 +44,4 @@ template <class Element>
     return Viewed<Element>{place(std::span<const Element>{array})};
 }
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

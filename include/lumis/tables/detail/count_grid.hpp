@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 template <std::floating_point T, template <class, template <class> class> class Rows = GuidedRows,
           template <class> class Array = Owned>
@@ -152,4 +152,4 @@ class CountGrid {
     Rows<T, Array> cells_;       // a table of each row's cells
 };
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

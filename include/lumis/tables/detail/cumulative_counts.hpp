@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 // log2 of the number of counts that a table deals out: every lattice point of a float, 2^31 for double, whose remaining
 // bits place the sample within the entry.
@@ -217,4 +217,4 @@ template <std::floating_point T>
     return size;
 }
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail

@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <span>
 
-namespace lumis::detail {
+namespace lumis::LUMIS_ISA::detail {
 
 // Elements of arrays are not initialised, so that the threads that deal the rows are the first to touch their memory.
 struct RunStart {
@@ -116,4 +116,4 @@ class GuidedRows {
     Array<GuideEntry> guide_;  // the group of entries in which each run begins, and the last one drawn
 };
 
-}  // namespace lumis::detail
+}  // namespace lumis::LUMIS_ISA::detail
