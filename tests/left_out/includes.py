@@ -29,7 +29,7 @@ STRATEGIES = ("tables/", "directions/", "microfacets/", "lights/")
 # Headers that are built upon a strategy, or upon a surface or shape that users include as well.
 BUILT_UPON = [
     (r"microfacets/(detail/)?ggx_\w+", r"microfacets/(ggx|ggx_vndf|reflected)"),
-    (r"lights/(detail/\w+|area_light\w*)", r"lights/shapes"),
+    (r"lights/(detail/\w+|area_light\w*)", r"lights/(shapes|surface)"),
     (r"lights/area_light_by_solid_angle", r"lights/area_light"),
     (r"lights/light_set", r"tables/alias_table"),
 ]

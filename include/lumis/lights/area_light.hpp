@@ -40,7 +40,7 @@ class AreaLight<S, ByArea> {
 // A shape without area, seen edge-on, from distance 0 or one whose square is out of range draws nothing.
 template <Shape S>
 class AreaLight<S, ByArea> {
-    using View = decltype(seen_from(std::declval<const S&>(), glm::vec<3, typename S::Scalar>{}));
+    using View = detail::ViewOf<S>;
 
   public:
     using Scalar = typename S::Scalar;

@@ -75,6 +75,10 @@ concept Shape = detail::HasScalar<S> && detail::SeenFromPoints<S> &&
 
 namespace detail {
 
+// What a shape is seen as. (nvcc's front end finds no function of the inline namespace from within a class.)
+template <class S>
+using ViewOf = decltype(seen_from(std::declval<const S&>(), std::declval<const glm::vec<3, typename S::Scalar>&>()));
+
 // Whether S is a Shape: if not, what it lacks first is named.
 template <class S>
 [[nodiscard]] constexpr bool is_shape() noexcept {
@@ -84,8 +88,7 @@ template <class S>
                       "a lumis::Shape has seen_from(reference_point), or a function "
                       "seen_from(shape, reference_point) in its namespace");
         if constexpr (SeenFromPoints<S>) {
-            using View = decltype(seen_from(std::declval<const S&>(), glm::vec<3, typename S::Scalar>{}));
-            static_assert(SurfaceView<View, typename S::Scalar>, "seen_from yields a lumis::SurfaceView");
+            static_assert(SurfaceView<ViewOf<S>, typename S::Scalar>, "seen_from yields a lumis::SurfaceView");
         }
     }
     return Shape<S>;
