@@ -53,24 +53,26 @@ template <Real R>
 template <class... S>
 inline constexpr std::size_t number_of_smooth = (std::size_t{!DeltaStrategy<std::remove_cvref_t<S>>} + ... + 0);
 
+// clang-format off: it takes the template arguments for comparisons
 template <class H, std::size_t N, class S>
 concept Weighs = Heuristic < H,
         scalar_of<typename S::Scalar>,
 typename S::Point, N > ;
+// clang-format on
 
 // Where a single strategy has a density, its weight is 1 and no heuristic is asked; a technique is none even so.
 template <class H>
 concept NoTechnique = std::is_class_v<H> && !requires(const H technique) {
     technique.strategy;
 };
+template <class H, class... S>
+concept NeverAsked = (number_of_smooth<S...> <= 1) && NoTechnique<H>;
+
 // A heuristic that gives what can be drawn a positive weight: it need not be compared to 0.
 template <class H>
 concept AlwaysPositive = requires {
     requires H::is_positive;
 };
-
-template <class H, class... S>
-concept NeverAsked = (number_of_smooth<S...> <= 1) && NoTechnique<H>;
 
 }  // namespace detail
 

@@ -32,9 +32,9 @@ using PointOf = typename PointIn<typename S::Point, typename S::Scalar, R>::type
 // Of which Real a point of S is made, if it is one of S: X is a PointOf<S, RealAt<S, X>>.
 template <class S, class X>
 struct RealAt {};
-template <class S, Real R>
+template <class S, RealOf<typename S::Scalar> R>
 struct RealAt<S, R> : std::type_identity<R> {};
-template <class S, int N, Real R, glm::qualifier Q>
+template <class S, int N, RealOf<typename S::Scalar> R, glm::qualifier Q>
 struct RealAt<S, glm::vec<N, R, Q>> : std::type_identity<R> {};
 
 // A point of S in lanes, as opposed to one of numbers.
@@ -42,8 +42,6 @@ template <class X, class S>
 concept PointInLanes = requires {
     typename RealAt<S, X>::type;
     requires !std::same_as<typename RealAt<S, X>::type, typename S::Scalar>;
-    requires RealOf < typename RealAt<S, X>::type,
-    typename S::Scalar > ;
     requires std::same_as<X, PointOf<S, typename RealAt<S, X>::type>>;
 };
 
