@@ -69,10 +69,11 @@ endif()
 expect(0 "5 of 5 samples a pixel, [0-9.]+ s, 0\\.0 s left" --spp 5 --width 16 --height 16)
 expect(0 "samples a pixel, [0-9.]+ of 0\\.2 s" --seconds 0.2 --width 16 --height 16)
 
-# Ctrl-C after a few seconds of hours, which a busy machine takes to start: what there is is written.
+# Ctrl-C after a few seconds of hours, which a busy machine takes to start: what there is is written. Without --foreground,
+# timeout signals its whole group and so the program twice: it would count as a second Ctrl-C, which ends it at once.
 find_program(TIMEOUT timeout)
 if(TIMEOUT)
-    set(before ${TIMEOUT} --preserve-status --signal=INT 4)
+    set(before ${TIMEOUT} --foreground --preserve-status --signal=INT 4)
     expect(130 "tracer: interrupted" --spp 16777216 --width 64 --height 64 --output interrupted.exr)
     set(before)
     if(NOT EXISTS ${FOLDER}/interrupted.exr)
