@@ -295,7 +295,7 @@ void write_json(const std::filesystem::path& file, std::span<const Study> studie
     json result{{"schema", 1}, {"problems", json::array()}};
     result["machine"] = {{"cpu", cpu_model()},     {"threads", settings.threads}, {"system", operating_system()},
                          {"compiler", compiler()}, {"flags", LUMIS_CXX_FLAGS},    {"date", today()}};
-    result["build"] = {{"version", LUMIS_VERSION},
+    result["build"] = {{"version", LUMIS_PROJECT_VERSION},
                        {"revision", text_or_null(revision)},
                        {"type", LUMIS_BUILD_TYPE},
                        {"assertions", assertions}};
