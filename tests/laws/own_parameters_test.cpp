@@ -4,6 +4,7 @@
 #include "assertions.hpp"
 #include "catch.hpp"
 #include "lane_subjects.hpp"
+#include "subject.hpp"
 #include <lumis/core/lanes.hpp>
 #include <lumis/lumis.hpp>
 #include <lumis/testing/agreement.hpp>
@@ -20,14 +21,10 @@ namespace {
 
 using lumis::Direction;
 
-#ifdef __FMA__
-constexpr bool fused =
-    true;  // compilers fuse the products of numbers and those of lanes differently, which grazing views magnify
-#else
-constexpr bool fused = false;
-#endif
+using lumis::detail::lane_of;
+using subjects::fused;  // numbers in other ways than lanes, which grazing views magnify
 
-// How lane i of L is made and read.
+// Lanes of which each is made of its own numbers.
 template <class L, std::size_t K>
 std::array<L, K> joined(const std::array<std::array<typename L::Lane, K>, L::size>& of_lane) {
     std::array<L, K> result;
@@ -35,14 +32,6 @@ std::array<L, K> joined(const std::array<std::array<typename L::Lane, K>, L::siz
         for (std::size_t i = 0; i < L::size; ++i) result[k].set(i, of_lane[i][k]);
     }
     return result;
-}
-template <class L>
-glm::vec<2, typename L::Lane> lane(const glm::vec<2, L>& v, std::size_t i) {
-    return {v.x[i], v.y[i]};
-}
-template <class L>
-Direction<typename L::Lane> lane(const Direction<L>& v, std::size_t i) {
-    return {v.x[i], v.y[i], v.z[i]};
 }
 
 template <class Made, class T, std::size_t N>
@@ -74,9 +63,9 @@ class Comparison {
         for (std::size_t i = 0; i < N; ++i) {
             INFO("lane " << i << " made of " << text(numbers[i]) << "; u = " << u.x[i] << ", " << u.y[i]);
             const auto single = Made::make(numbers[i]);
-            const auto one = single.sample(lane(u, i));
+            const auto one = single.sample(lane_of(u, i));
             drawn_ += one.pdf > 0;
-            const auto w = lane(drawn.value, i);
+            const auto w = lane_of(drawn.value, i);
             REQUIRE(is_finite(w));
             if (one.pdf == 0 || drawn.pdf[i] == 0) {
                 REQUIRE(drawn.pdf[i] == one.pdf);
@@ -85,14 +74,14 @@ class Comparison {
                 require_density(single, one.value, drawn.pdf[i], one.pdf);
                 if constexpr (requires { one.distance; }) require_same(drawn.distance[i], one.distance);
                 if constexpr (requires { single.invert(w); }) {
-                    require_inverse(lane(lanes.invert(drawn.value), i), single.invert(w), u.x[i]);
+                    require_inverse(lane_of(lanes.invert(drawn.value), i), single.invert(w), u.x[i]);
                 }
             }
             require_density(single, w, pdf_drawn[i], single.pdf(w));
-            require_density(single, lane(anywhere, i), pdf_anywhere[i], single.pdf(lane(anywhere, i)));
+            require_density(single, lane_of(anywhere, i), pdf_anywhere[i], single.pdf(lane_of(anywhere, i)));
             if constexpr (requires { single.distance_along(w); }) {
                 require_distance(lanes.distance_along(drawn.value)[i], single.distance_along(w));
-                require_distance(lanes.distance_along(anywhere)[i], single.distance_along(lane(anywhere, i)));
+                require_distance(lanes.distance_along(anywhere)[i], single.distance_along(lane_of(anywhere, i)));
             }
         }
     }

@@ -70,7 +70,7 @@ class Chunk {
             return lanes;
         }
     }
-    // From an array of points, as lanes of them.
+    // Lanes of points, from an array of them.
     template <class Lanes, class Point>
     [[nodiscard]] LUMIS_INLINE Lanes load_points(std::span<const Point> from) const {
         Lanes lanes{};

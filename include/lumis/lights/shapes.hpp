@@ -74,4 +74,5 @@ template <Real T>
 Triangle(glm::vec<3, T>, glm::vec<3, T>, glm::vec<3, T>) -> Triangle<T>;
 template <Real T>
 Parallelogram(glm::vec<3, T>, glm::vec<3, T>, glm::vec<3, T>) -> Parallelogram<T>;
+
 }  // namespace lumis::LUMIS_ISA

@@ -29,7 +29,7 @@ struct PointIn<glm::vec<N, T, Q>, T, R> : std::type_identity<glm::vec<N, R, Q>> 
 template <class S, class R>
 using PointOf = typename PointIn<typename S::Point, typename S::Scalar, R>::type;
 
-// Of which Real a point of S is made, if it is one of S: X is a PointOf<S, RealAt<S, X>>.
+// The Real that a point of S is made of, if it is one of S: X is a PointOf<S, RealAt<S, X>>.
 template <class S, class X>
 struct RealAt {};
 template <class S, RealOf<typename S::Scalar> R>

@@ -105,7 +105,7 @@ template <class V>
     }
 }
 
-// Of which the compiler is to know nothing more, see real.hpp.
+// Lanes that the compiler is to know nothing more of, see real.hpp.
 template <class V>
 [[nodiscard]] LUMIS_INLINE inline V opaque_lanes(const V& x) noexcept {
     if constexpr (IsArray<V>) {
