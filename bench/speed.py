@@ -98,11 +98,11 @@ def count_instructions(binary, kernel):
 
 
 def by_kernel(figures):
-    """{'sample/x': {'single': figure, ...}} from {'sample/x/single/float': figure, ...}."""
+    """{'sample/x': {'single': figure, ...}} from {'sample/x/single/float': figure, ...}; lanes of points are a batch of them."""
     table = collections.defaultdict(dict)
     for name, figure in figures.items():
         kernel, form, _ = name.rsplit("/", 2)
-        table[kernel][form] = figure
+        table[kernel]["batch" if form == "lanes" else form] = figure
     return table
 
 
@@ -219,7 +219,8 @@ Batches are compared with single calls at `-O2` as well: there they are to be no
   one that outgrows the caches pays for it. The sky has a sun that gives as much light as the rest.
 - `sample/...` is a sample with its density; of `ggx_reflection` also its weight, reflectance times cosine over density. `pdf/...` is
   a density, half of the directions being samples and half anywhere. `once/...` makes the strategy for a new point, or
-  direction, and draws one sample (without a weight), as at each vertex of a path.
+  direction, and draws one sample (without a weight), as at each vertex of a path; its `batch` makes one strategy of lanes for as
+  many points. `estimate/...` is a whole estimate by two techniques and the power heuristic, integrand included.
 - `textbook` of `cosine_hemisphere` is Malley's method in polar coordinates, the faster one; `textbook_concentric` in the program's output is Shirley
   and Chiu's map. Of `ggx_reflection` it draws by spherical caps as published in 2023, the fastest there is.
 - Some textbook forms are quicker for doing less: a sphere's `1 - cos`, or a triangle's arc cosines, have no digits left for a small
@@ -241,19 +242,22 @@ def main():
     arguments = parser.parse_args()
 
     load = f"load average {os.getloadavg()[0]:.1f} before"
-    pattern = rf"^(sample|pdf|once|weight|build)/.*({arguments.filter}).*/(single|batch|textbook|alias)/float"
+    pattern = rf"^(sample|pdf|once|weight|estimate|build)/.*({arguments.filter}).*/(single|batch|lanes|textbook|alias)/float"
     variants = {name: VARIANTS[name] for name in arguments.variants}
     binaries = {name: build(v.compiler, v.flags, arguments.build / name) for name, v in variants.items()}
+    times = {}
+    for name, binary in binaries.items():  # first, all of them: the machine is as quiet as it was
+        print(f"measuring {name}", file=sys.stderr)
+        times[name] = measure_times(binary, pattern, arguments.repetitions, arguments.seconds)
     results = {}
     for name, binary in binaries.items():
-        print(f"measuring {name}", file=sys.stderr)
-        times = measure_times(binary, pattern, arguments.repetitions, arguments.seconds)
         counted, v = {}, variants[name]
         if not arguments.no_instructions:
+            print(f"counting {name}", file=sys.stderr)
             if v.counted_flags != v.flags:
                 binary = build(v.compiler, v.counted_flags, arguments.build / f"{name}-counted")
-            counted = {kernel: count_instructions(binary, kernel) for kernel in times}
-        results[name] = (by_kernel(times), by_kernel(counted))
+            counted = {kernel: count_instructions(binary, kernel) for kernel in times[name]}
+        results[name] = (by_kernel(times[name]), by_kernel(counted))
 
     tables = ""
     for name, (times, instructions) in results.items():
