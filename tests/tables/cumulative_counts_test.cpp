@@ -16,7 +16,7 @@
 namespace {
 
 template <class T>
-std::vector<std::uint32_t> deal(const std::vector<double>& weights) {
+std::vector<std::uint32_t> deal(std::vector<double> weights) {
     std::vector<std::uint32_t> starts(weights.size());
     lumis::detail::deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return starts[i]; });
     starts.push_back(lumis::detail::total_counts<T>);
@@ -75,8 +75,9 @@ TEMPLATE_TEST_CASE("only dim weights get more than their share", "[cumulative_co
             if (weights[i] > 1e-3) bright += weights[i];
         }
         std::vector<std::uint32_t> starts(weights.size());
+        std::vector<double> overwritten = weights;
         const auto dealt =
-            lumis::detail::deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return starts[i]; });
+            lumis::detail::deal_counts<T>(overwritten, [&](std::size_t i) -> std::uint32_t& { return starts[i]; });
         starts.push_back(lumis::detail::total_counts<T>);
         CHECK(dealt.dim == number_dim);
         CHECK(std::abs(dealt.excess - static_cast<double>(number_dim) / all) <= 1e-6 * dealt.excess);

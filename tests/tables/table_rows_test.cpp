@@ -38,7 +38,7 @@ std::vector<std::vector<double>> nasty_weights() {
 }
 
 template <class Rows>
-Rows table_of(const std::vector<double>& weights) {
+Rows table_of(std::vector<double> weights) {
     Rows rows{weights.size(), 1};
     rows.deal(0, weights);
     return rows;
@@ -166,7 +166,10 @@ TEMPLATE_LIST_TEST_CASE("rows are tables of their own", "[table_rows]", AllRows)
     using T = Scalar<TestType>;
     constexpr std::size_t size = 17, number = 5;
     TestType rows{size, number};
-    for (std::size_t row = number; row-- > 0;) rows.deal(row, random_weights<double>(size, static_cast<double>(row)));
+    for (std::size_t row = number; row-- > 0;) {
+        auto weights = random_weights<double>(size, static_cast<double>(row));
+        rows.deal(row, weights);
+    }
     for (std::size_t row = 0; row < number; ++row) {
         const auto alone = table_of<TestType>(random_weights<double>(size, static_cast<double>(row)));
         for (std::size_t i = 0; i < size; ++i) CHECK(rows.counts(row, i) == alone.counts(0, i));

@@ -231,9 +231,12 @@ class BasicEnvironmentMap {
             return 0.125 * static_cast<double>(above[x]) + 0.75 * static_cast<double>(here[x]) +
                    0.125 * static_cast<double>(below[x]);
         };
-        for (std::size_t x = 0; x < n; ++x) {
-            means[x] = 0.125 * down(x > 0 ? x - 1 : n - 1) + 0.75 * down(x) + 0.125 * down(x + 1 < n ? x + 1 : 0);
-        }
+        const auto across = [&](std::size_t left, std::size_t x, std::size_t right) {
+            means[x] = 0.125 * down(left) + 0.75 * down(x) + 0.125 * down(right);
+        };
+        across(n - 1, 0, n > 1 ? 1 : 0);
+        for (std::size_t x = 1; x + 1 < n; ++x) across(x - 1, x, x + 1);
+        across(n > 1 ? n - 2 : 0, n - 1, 0);
     }
 
     detail::CountGrid<T, Rows, Array> grid_;

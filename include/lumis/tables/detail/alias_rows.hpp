@@ -70,8 +70,8 @@ class AliasRows {
     [[nodiscard]] LUMIS_HD std::size_t entries() const noexcept { return entries_; }
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return bins_.size() * sizeof(AliasBin); }
 
-    // Sets one row; different rows may be dealt at the same time.
-    Dealt deal(std::size_t row, std::span<const double> weights) {
+    // Sets one row; different rows may be dealt at the same time. The weights are overwritten.
+    Dealt deal(std::size_t row, std::span<double> weights) {
         std::vector<std::uint32_t> counts(entries_ + 1, total_counts<T>);
         const Dealt dealt = deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return counts[i]; });
         for (std::size_t i = 0; i < entries_; ++i) counts[i] = counts[i + 1] - counts[i];

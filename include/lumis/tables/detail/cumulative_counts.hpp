@@ -37,7 +37,8 @@ struct InOrder {
 
 template <class Weight>
 [[nodiscard]] constexpr bool is_weight(Weight weight) noexcept {
-    return weight >= 0 && weight <= (std::numeric_limits<Weight>::max)();
+    return (weight >= 0) &
+           (weight <= (std::numeric_limits<Weight>::max)());  // no branch: several are looked at at once
 }
 
 // Throws std::invalid_argument naming the index and the value of the first weight that is NaN, infinite or negative.
@@ -80,9 +81,12 @@ struct Dealt : ScaledSum {
 
 // Deals the counts out: start_of(i) becomes the number of counts before entry i. An entry's counts are its share, rounded,
 // but at least one for every weight above 0, and none for weight 0. weights: finite, not negative, not more than there are
-// counts; all 0 leaves every count to the last entry.
+// counts; all 0 leaves every count to the last entry. They are overwritten.
+//
+// Sums are added up one after the other, whatever the machine, so that tables are the same everywhere. The loops between
+// them are kept free of sums, so that compilers work on several entries at once.
 template <std::floating_point T>
-Dealt deal_counts(std::span<const double> weights, auto start_of) {
+Dealt deal_counts(std::span<double> weights, auto start_of) {
     // 1. The sum, in units of a power of two near the largest weight where it would leave double's range.
     double sum = 0, scale = 1;
     int exponent = 0;
@@ -105,38 +109,43 @@ Dealt deal_counts(std::span<const double> weights, auto start_of) {
     constexpr double all = total_counts<T>;
     Dealt result{{sum, exponent}};
     double worth = sum / all;
+    const auto is_bright = [&](double weight) { return weight * scale >= worth; };
     for (std::uint32_t round = 0, bright = positive; round < 20 && bright > 0; ++round) {
-        std::uint32_t brighter = 0;
+        std::uint64_t number = 0;  // as wide as a weight, so that it is counted several at a time
+        for (const double weight : weights) number += std::uint64_t{is_bright(weight)};
+        const auto brighter = static_cast<std::uint32_t>(number);
+        if (brighter == bright) break;
         double weight_of_bright = 0;
-        for (const double weight : weights) {
-            const bool is_bright = weight * scale >= worth && weight > 0;
-            brighter += is_bright;
-            weight_of_bright += is_bright ? weight * scale : 0.0;
-        }
+        for (const double weight : weights) weight_of_bright += is_bright(weight) ? weight * scale : 0.0;
         if (round == 0) {
             result.dim = positive - brighter;
             result.excess = (result.dim - (sum - weight_of_bright) / worth) / all;
         }
-        if (brighter == bright || brighter == 0) break;
+        if (brighter == 0) break;
         bright = brighter;
         worth = weight_of_bright / (all - (positive - bright));
     }
 
     // 3. One count to every positive weight, and the others in proportion to what the weights are beyond one count's worth.
-    const auto beyond = [&](double weight) { return real::greater(weight * scale - worth, 0.0); };
-    double sum_beyond = 0;
-    for (const double weight : weights) sum_beyond += beyond(weight);
-    const double others = all - positive, others_of_weight = sum_beyond > 0 ? others / sum_beyond : 0;
+    // What lies before an entry takes the place of its weight, and the number of positive ones before it that of its start.
     double before = 0;
     std::uint32_t positive_before = 0;
+    std::size_t end = 0;  // of the positive weights
     for (std::size_t i = 0; i < weights.size(); ++i) {
-        // Behind the last positive weight none is left, whatever has been rounded on the way there.
-        const double share =
-            positive > 0 && positive_before == positive ? others : real::lesser(before * others_of_weight, others);
-        start_of(i) = positive_before + static_cast<std::uint32_t>(static_cast<std::int64_t>(share + 0.5));
-        before += beyond(weights[i]);
-        positive_before += weights[i] > 0;
+        const double weight = weights[i];
+        weights[i] = before;
+        start_of(i) = positive_before;
+        before += real::greater(weight * scale - worth, 0.0);
+        positive_before += weight > 0;
+        end = weight > 0 ? i + 1 : end;
     }
+    const double others = all - positive, others_of_weight = before > 0 ? others / before : 0;
+    for (std::size_t i = 0; i < end; ++i) {
+        const double share = real::lesser(weights[i] * others_of_weight, others);
+        start_of(i) += static_cast<std::uint32_t>(static_cast<std::int32_t>(share + 0.5));
+    }
+    // Behind the last positive weight none is left, whatever has been rounded on the way there.
+    for (std::size_t i = end; i < weights.size(); ++i) start_of(i) = positive > 0 ? total_counts<T> : 0;
     return result;
 }
 
@@ -160,7 +169,8 @@ void require_enough_counts(const Dealt& dealt) {
 template <std::floating_point T, class Weight>
 Dealt deal_checked(auto& table, std::span<const Weight> weights) {
     require_weights(weights);
-    const Dealt dealt = table.deal(0, std::vector<double>(weights.begin(), weights.end()));
+    std::vector<double> as_doubles(weights.begin(), weights.end());
+    const Dealt dealt = table.deal(0, as_doubles);
     require_enough_counts<T>(dealt);
     return dealt;
 }

@@ -51,20 +51,12 @@ class GuidedRows {
         return starts_.size() * sizeof(RunStart) + guide_.size() * sizeof(GuideEntry);
     }
 
-    // Sets one row; different rows may be dealt at the same time.
-    Dealt deal(std::size_t row, std::span<const double> weights) {
+    // Sets one row; different rows may be dealt at the same time. The weights are overwritten.
+    Dealt deal(std::size_t row, std::span<double> weights) {
         RunStart* const starts = &starts_[row * (entries_ + 1)];
         const Dealt dealt = deal_counts<T>(weights, [&](std::size_t i) -> std::uint32_t& { return starts[i].value; });
         starts[entries_].value = total_counts<T>;
-        GuideEntry* const guide = &guide_[row * (entries_ + 1)];
-        std::size_t entry = 0;
-        for (std::uint64_t run = 0; run < entries_; ++run) {
-            const std::uint64_t begin = ((run << count_bits<T>)+entries_ - 1) / entries_;
-            while (starts[entry + 1].value <= begin) ++entry;
-            guide[run].value = static_cast<std::uint16_t>(entry >> guide_shift_);
-        }
-        while (starts[entry + 1].value < total_counts<T>) ++entry;
-        guide[entries_].value = static_cast<std::uint16_t>(entry >> guide_shift_);
+        fill_guide(starts, &guide_[row * (entries_ + 1)]);
         return dealt;
     }
 
@@ -105,6 +97,26 @@ class GuidedRows {
   private:
     template <class, template <class> class>
     friend class GuidedRows;
+
+    // Sets a row's guide. Run r begins with the count ceil(r total_counts / entries), so that the first run which begins at
+    // or behind a start s is floor((s - 1) entries / total_counts) + 1. Each entry puts itself down there, over those that
+    // start at the same count and so have none, and is carried on to where the next one stands.
+    void fill_guide(const RunStart* starts, GuideEntry* guide) const noexcept {
+        for (std::size_t run = 0; run < entries_; ++run) guide[run].value = 0;
+        for (std::size_t entry = 0; entry < entries_; ++entry) {
+            const std::uint64_t scaled = starts[entry].value * std::uint64_t{entries_} + (total_counts<T> - entries_);
+            guide[scaled >> count_bits<T>].value = static_cast<std::uint16_t>(entry >> guide_shift_);
+        }
+        std::uint16_t latest = 0;
+        for (std::size_t run = 0; run < entries_; ++run) {
+            latest = guide[run].value > latest ? guide[run].value : latest;
+            guide[run].value = latest;
+        }
+        // Behind the runs stands the last entry that is drawn.
+        std::size_t last = entries_ - 1;
+        while (starts[last].value == total_counts<T>) --last;
+        guide[entries_].value = static_cast<std::uint16_t>(last >> guide_shift_);
+    }
 
     [[nodiscard]] LUMIS_HD std::uint32_t start(std::size_t row, std::size_t i) const noexcept {
         return starts_[row * (entries_ + 1) + i].value;
