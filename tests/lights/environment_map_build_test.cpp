@@ -2,10 +2,12 @@
 // in the memory that is promised.
 #include "catch.hpp"
 #include "table_weights.hpp"
+#include <lumis/core/lanes.hpp>
 #include <lumis/lights/environment_map.hpp>
 #include <lumis/tables/piecewise_constant.hpp>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <limits>
@@ -95,6 +97,21 @@ TEMPLATE_TEST_CASE("guided and alias maps have the same densities", "[environmen
     }
     CHECK(different == 0);
     CHECK(disagreeing == 0);
+}
+
+TEMPLATE_PRODUCT_TEST_CASE("in lanes a point of the map has the density that it has alone", "[environment_map]",
+                           (lumis::EnvironmentMap, lumis::AliasEnvironmentMap), (float, double)) {
+    using T = typename TestType::Scalar;
+    using Eight = lumis::Lanes<T, 8>;
+    const TestType map{33, 17, texels_of<T>(33 * 17)};
+    const T nan = std::numeric_limits<T>::quiet_NaN(), below_one = 1 - std::numeric_limits<T>::epsilon() / 2;
+    const std::array<T, 8> numbers{T(0), T(1), below_one, T(0.3), T(-0.1), nan, T(7), T(0.5)};
+    for (std::size_t shift = 0; shift < 8; ++shift) {
+        const auto x = Eight::of_lanes([&](auto i) { return numbers[i]; });
+        const auto y = Eight::of_lanes([&](auto i) { return numbers[(i + shift) % 8]; });
+        const Eight together = map.pdf_at(glm::vec<2, Eight>{x, y});
+        for (std::size_t i = 0; i < 8; ++i) CHECK(together[i] == map.pdf_at(glm::vec<2, T>{x[i], y[i]}));
+    }
 }
 
 TEST_CASE("only a map whose rows are monotone can be inverted", "[environment_map]") {

@@ -3,6 +3,7 @@
 // within rows, is GuidedRows or AliasRows; the row itself is always drawn by a guided table. Array: see arrays.hpp.
 #pragma once
 
+#include "lumis/core/detail/vectors.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/throw.hpp"
@@ -12,9 +13,11 @@
 
 #include <glm/vec2.hpp>
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <span>
 #include <string>
@@ -125,9 +128,30 @@ class CountGrid {
                  x.y * static_cast<T>(height_) - static_cast<T>(row)}};
     }
 
+    // The cells that hold the points of all lanes.
+    template <std::size_t N>
+    struct LocatedLanes {
+        std::array<std::uint32_t, N> column, row;
+    };
+    template <class R>
+    [[nodiscard]] LUMIS_INLINE LocatedLanes<R::size> locate_lanes(const glm::vec<2, R>& x) const noexcept {
+        return {indices_of(x.x, width_), indices_of(x.y, height_)};
+    }
+
   private:
     template <std::floating_point, template <class, template <class> class> class, template <class> class>
     friend class CountGrid;
+
+    // As index_of.
+    template <class R>
+    [[nodiscard]] LUMIS_INLINE static std::array<std::uint32_t, R::size> indices_of(R x, std::size_t n) noexcept {
+        const R scaled = x * static_cast<T>(n);
+        const R index = real::select(scaled > T(0), real::lesser(scaled, static_cast<T>(n - 1)), T(0));
+        const auto whole = converted_lanes<std::int32_t, T, R::size>(index.vector());
+        std::array<std::uint32_t, R::size> result;
+        std::memcpy(result.data(), &whole, sizeof result);
+        return result;
+    }
 
     static std::size_t checked(std::integral auto extent, const char* name) {
         if (extent <= 0 || std::cmp_greater(extent, total_counts<T>)) {
