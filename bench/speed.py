@@ -49,7 +49,7 @@ TARGETS = [
 NO_SLOWER = 0.97
 
 # A table so large that valgrind would need minutes to build it.
-UNCOUNTED = re.compile("environment_(4096|8192)|alias_table_1000000")
+UNCOUNTED = re.compile("environment_(4096|8192)|(alias|discrete)_table_1000000")
 FORMS = ["textbook", "single", "batch"]
 
 

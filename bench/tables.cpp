@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace {
@@ -51,8 +52,9 @@ void add_environment(int width) {
     add_build("textbook", build<Book, T>);
 }
 
-template <class T>
-void add_alias_table(std::size_t size) {
+// Tables of indices. Book: nullptr_t if there is none.
+template <class Table, class Book, class T = typename Table::Scalar>
+void add_index_table(const std::string& name, std::size_t size) {
     const auto weights = [size] {
         std::vector<T> result = Uniforms<T>{(size + batch - 1) / batch}.x;
         result.resize(size);
@@ -63,7 +65,7 @@ void add_alias_table(std::size_t size) {
         std::vector<T> pdf = std::vector<T>(batch);
     };
     const auto add = [&](const char* form, auto make) {
-        add_kernel("sample/alias_table_" + std::to_string(size) + "/" + form + "/" + scalar_name<T>, [=]() -> Pass {
+        add_kernel("sample/" + name + "_" + std::to_string(size) + "/" + form + "/" + scalar_name<T>, [=]() -> Pass {
             return [table = make(), u = Uniforms<T>{many}, out = Drawn{}, pass = std::size_t{0}]() mutable {
                 const auto x = part(u.x, pass++);
                 for (std::size_t i = 0; i < batch; ++i) {
@@ -77,16 +79,18 @@ void add_alias_table(std::size_t size) {
             };
         });
     };
-    add("single", lazily([=] { return lumis::AliasTable<T>{weights()}; }));
-    add("textbook", lazily([=] { return textbook::AliasTable<T>{weights()}; }));
+    add("single", lazily([=] { return Table{weights()}; }));
+    if constexpr (!std::is_same_v<Book, std::nullptr_t>) add("textbook", lazily([=] { return Book{weights()}; }));
 }
 
 const bool added = [] {
     for (const int width : {1024, 4096, 8192}) add_environment<float>(width);
     add_environment<double>(1024);
     for (const std::size_t size : {std::size_t{1000}, std::size_t{1000000}}) {
-        add_alias_table<float>(size);
-        add_alias_table<double>(size);
+        add_index_table<lumis::AliasTable<float>, textbook::AliasTable<float>>("alias_table", size);
+        add_index_table<lumis::AliasTable<double>, textbook::AliasTable<double>>("alias_table", size);
+        add_index_table<lumis::DiscreteTable<float>, std::nullptr_t>("discrete_table", size);
+        add_index_table<lumis::DiscreteTable<double>, std::nullptr_t>("discrete_table", size);
     }
     return true;
 }();

@@ -10,6 +10,8 @@ Measured uniforms_below_one(Effort effort);
 template <class T>
 Measured alias_table(Effort effort);
 template <class T>
+Measured discrete_table(Effort effort);
+template <class T>
 Measured piecewise_constant(Effort effort);
 template <class T>
 Measured huge_tables(Effort effort);

@@ -90,6 +90,28 @@ void check_frequencies(Measured& measured, Effort effort, std::size_t entries, a
     }
 }
 
+// Table: of indices.
+template <class Table>
+Measured index_table(Effort effort) {
+    using T = typename Table::Scalar;
+    Measured measured;
+    for (const auto& weights : awkward_weights<T>()) {
+        const Table table{weights};
+        const auto probability = [&](std::size_t i) { return double{table.pdf(i)}; };
+        check_probabilities<T>(measured, weights, probability);
+        const auto index = [&](T u) {
+            const auto sample = table.sample(glm::vec<1, T>{u});
+            measured.expect(sample.value < weights.size() && sample.pdf > 0 && weights[sample.value] > 0);
+            return sample.value;
+        };
+        for (const T u : corner_values<T>) index(u);
+        check_frequencies<T>(measured, effort, weights.size(), index, probability);
+    }
+    const Table black{std::vector<T>(100, T(0))};
+    for (const T u : corner_values<T>) measured.expect(black.empty() && black.sample(glm::vec<1, T>{u}).pdf == 0);
+    return measured;
+}
+
 }  // namespace
 
 template <class T>
@@ -114,22 +136,12 @@ Measured uniforms_below_one(Effort effort) {
 
 template <class T>
 Measured alias_table(Effort effort) {
-    Measured measured;
-    for (const auto& weights : awkward_weights<T>()) {
-        const lumis::AliasTable<T> table{weights};
-        const auto probability = [&](std::size_t i) { return double{table.pdf(i)}; };
-        check_probabilities<T>(measured, weights, probability);
-        const auto index = [&](T u) {
-            const auto sample = table.sample(glm::vec<1, T>{u});
-            measured.expect(sample.value < weights.size() && sample.pdf > 0 && weights[sample.value] > 0);
-            return sample.value;
-        };
-        for (const T u : corner_values<T>) index(u);
-        check_frequencies<T>(measured, effort, weights.size(), index, probability);
-    }
-    const lumis::AliasTable<T> black{std::vector<T>(100, T(0))};
-    for (const T u : corner_values<T>) measured.expect(black.empty() && black.sample(glm::vec<1, T>{u}).pdf == 0);
-    return measured;
+    return index_table<lumis::AliasTable<T>>(effort);
+}
+
+template <class T>
+Measured discrete_table(Effort effort) {
+    return index_table<lumis::DiscreteTable<T>>(effort);
 }
 
 template <class T>
@@ -197,6 +209,8 @@ template Measured uniforms_below_one<float>(Effort);
 template Measured uniforms_below_one<double>(Effort);
 template Measured alias_table<float>(Effort);
 template Measured alias_table<double>(Effort);
+template Measured discrete_table<float>(Effort);
+template Measured discrete_table<double>(Effort);
 template Measured piecewise_constant<float>(Effort);
 template Measured piecewise_constant<double>(Effort);
 template Measured huge_tables<float>(Effort);

@@ -39,6 +39,7 @@
 #include "lumis/statistics/error_metrics.hpp"
 #include "lumis/statistics/running_moments.hpp"
 #include "lumis/tables/alias_table.hpp"
+#include "lumis/tables/discrete_table.hpp"
 #include "lumis/tables/piecewise_constant.hpp"
 #include "lumis/version.hpp"
 

@@ -105,6 +105,7 @@ bool check_tables() {
     std::vector<float> weights(64 * 32);
     for (float& weight : weights) weight = static_cast<float>(engine() % 1000);
     bool good = check_table("alias table", AliasTable{weights});
+    good &= check_table("discrete table", DiscreteTable{weights});
     good &= check_table("fine alias table", FineAliasTable{weights});
     good &= check_table("piecewise constant, 1D", PiecewiseConstant1D{weights});
     good &= check_table("piecewise constant, 2D", PiecewiseConstant2D{64, 32, weights});

@@ -65,9 +65,9 @@ void check_samples(Input& input, const Table& table, Weight weight) {
     for (int i = 0; i < 4; ++i) check(input.uniforms<lumis::UniformsOf<Table>>());
 }
 
-template <class T>
-void fuzz_alias_table(Input& input, const std::vector<T>& weights) {
-    const auto table = try_make(weights, !weights.empty(), [&] { return lumis::AliasTable{weights}; });
+template <class Table, class T>
+void fuzz_index_table(Input& input, const std::vector<T>& weights) {
+    const auto table = try_make(weights, !weights.empty(), [&] { return Table{weights}; });
     if (!table) return;
     check_samples(input, *table, [&](std::size_t i) { return weights.at(i); });
     double mass = 0;
@@ -77,6 +77,15 @@ void fuzz_alias_table(Input& input, const std::vector<T>& weights) {
     }
     CHECK(table->empty() ? mass == 0 : mass == 1);
     CHECK(table->pdf(table->size()) == 0 && table->pdf(~std::size_t{0}) == 0);
+    if constexpr (requires { table->invert(0, T(0)); }) {
+        const auto any = input.bits<std::size_t>();
+        CHECK(std::isfinite(table->invert(any, T(0.5)).x) &&
+              std::isfinite(table->invert(any % weights.size(), T(0.5)).x));
+        const auto u = input.uniforms<glm::vec<1, T>>();
+        const auto drawn = table->sample_remapped(u);
+        CHECK(drawn.value == table->sample(u).value && drawn.rest > 0 && drawn.rest < 1);
+        CHECK(std::abs(table->invert(drawn.value, drawn.rest).x - u.x) <= 2 * std::numeric_limits<T>::epsilon());
+    }
 }
 
 template <class T>
@@ -182,7 +191,8 @@ void fuzz_tables(Input& input, unsigned kind) {
     }
     switch (kind / 4 % 4) {
         case 0:
-            return fuzz_alias_table(uniforms, weights);
+            if (kind & 16) return fuzz_index_table<lumis::DiscreteTable<T>>(uniforms, weights);
+            return fuzz_index_table<lumis::AliasTable<T>>(uniforms, weights);
         case 1:
             return fuzz_1d(uniforms, weights);
         case 2:

@@ -71,13 +71,13 @@ class BasicEnvironmentMap {
     using Measure = measure::SolidAngle;
     static constexpr int dimensions = 2;
 
-    [[nodiscard]] LUMIS_HD std::size_t width() const noexcept { return grid_.width(); }
-    [[nodiscard]] LUMIS_HD std::size_t height() const noexcept { return grid_.height(); }
+    [[nodiscard]] LUMIS_HD std::size_t width() const noexcept { return grid_.columns(); }
+    [[nodiscard]] LUMIS_HD std::size_t height() const noexcept { return grid_.rows(); }
     [[nodiscard]] std::size_t memory_bytes() const noexcept requires detail::Owns<Array> {
         return grid_.memory_bytes() + rows_.size() * sizeof(Row);
     }
 
-    // True if no texel has any luminance: then nothing is drawn, and the density is 0.
+    // True if no texel has any luminance, or if there are none: then nothing is drawn, and the density is 0.
     [[nodiscard]] LUMIS_HD bool empty() const noexcept { return grid_.empty(); }
 
     // A drawn point of the map as direction_from_latlong takes it.
@@ -163,6 +163,11 @@ class BasicEnvironmentMap {
     }
 
   protected:
+    BasicEnvironmentMap() requires detail::Owns<Array>
+        : BasicEnvironmentMap{1, 1, std::span<const double>{detail::no_weight}, {}, detail::InOrder{}} {
+        grid_.tell_no_size();
+    }
+
     template <class Luminance>
     BasicEnvironmentMap(std::integral auto width, std::integral auto height, std::span<const Luminance> luminance,
                         EnvironmentOptions options, const auto& for_each_row)
@@ -247,7 +252,7 @@ class BasicEnvironmentMap {
 
     detail::CountGrid<T, Rows, Array> grid_;
     Array<Row> rows_;
-    T turn_of_texel_ = 1 / static_cast<T>(width());
+    T turn_of_texel_ = 1 / static_cast<T>(grid_.width());
 };
 
 template <std::floating_point T>
@@ -273,6 +278,9 @@ class EnvironmentMap : public BasicEnvironmentMap<T, detail::GuidedRows, detail:
     using Base = BasicEnvironmentMap<T, detail::GuidedRows, detail::Owned>;
 
   public:
+    // No texels; another map may be assigned.
+    EnvironmentMap() = default;
+
     // luminance: width x height values, row by row from +y. Throws std::invalid_argument for a size of 0, a size that
     // does not match, and a texel that is NaN, infinite or negative. All-zero luminance is legal, see empty().
     // for_each_row: the host's own way to run the rows, on threads perhaps, see detail::InOrder.
@@ -299,6 +307,9 @@ class AliasEnvironmentMap : public BasicEnvironmentMap<T, detail::AliasRows, det
     using Base = BasicEnvironmentMap<T, detail::AliasRows, detail::Owned>;
 
   public:
+    // No texels; another map may be assigned.
+    AliasEnvironmentMap() = default;
+
     // As EnvironmentMap's. Keeps 8 bytes a texel, and 28 more a row.
     template <class ForEachRow = detail::InOrder>
     AliasEnvironmentMap(std::integral auto width, std::integral auto height, std::span<const T> luminance,

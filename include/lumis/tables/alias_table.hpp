@@ -1,4 +1,5 @@
 // Indices in proportion to weights, in constant time whatever their number. Counting measure: the density is a probability.
+// Neighbouring uniforms may draw indices far apart: see discrete_table.hpp for low-discrepancy points.
 // Walker 1977 in fixed point (see alias_rows.hpp): the reported probability is the one drawn, exactly, and the
 // probabilities sum to 1.
 //
@@ -12,7 +13,7 @@
 #include "lumis/core/strategy.hpp"
 #include "lumis/tables/detail/alias_rows.hpp"
 #include "lumis/tables/detail/arrays.hpp"
-#include "lumis/tables/detail/cumulative_counts.hpp"
+#include "lumis/tables/detail/index_table.hpp"
 
 #include <concepts>
 #include <cstddef>
@@ -21,67 +22,24 @@
 
 namespace lumis::LUMIS_ISA {
 
-namespace detail {
-
-// What AliasTable and AliasTableView share. Array: see arrays.hpp.
-template <std::floating_point T, template <class> class Array>
-class BasicAliasTable {
-  public:
-    using Scalar = T;
-    using Point = std::size_t;
-    using Measure = measure::Counting;
-    static constexpr int dimensions = 1;
-
-    [[nodiscard]] LUMIS_HD std::size_t size() const noexcept { return table_.entries(); }
-
-    // True if all weights are 0: then nothing is drawn, and the probability is 0.
-    [[nodiscard]] LUMIS_HD bool empty() const noexcept { return !(probability_of_count_ > 0); }
-
-    // An index of weight 0 is never drawn.
-    [[nodiscard]] LUMIS_HD Sample<Point, T> sample(glm::vec<1, T> u) const noexcept {
-        const auto drawn = table_.draw(0, u.x);
-        return {drawn.index, static_cast<T>(drawn.counts) * probability_of_count_};
-    }
-
-    [[nodiscard]] LUMIS_HD T pdf(Point index) const noexcept {
-        return index < size() ? static_cast<T>(table_.counts_unguessed(0, index)) * probability_of_count_ : T(0);
-    }
-
-  protected:
-    template <class Weight>
-    explicit BasicAliasTable(std::span<const Weight> weights) : table_{checked_size<T>(weights.size()), 1} {
-        const Dealt dealt = deal_checked<T>(table_, weights);
-        probability_of_count_ = dealt.value > 0 ? 1 / static_cast<T>(total_counts<T>) : T(0);
-    }
-
-    BasicAliasTable(const BasicAliasTable<T, Owned>& owner, auto& place)
-        : table_{owner.table_, place}, probability_of_count_{owner.probability_of_count_} {}
-
-  private:
-    template <std::floating_point, template <class> class>
-    friend class BasicAliasTable;
-
-    AliasRows<T, Array> table_;
-    T probability_of_count_;  // 0 if nothing is drawn
-};
-
-}  // namespace detail
-
 template <std::floating_point T>
 class AliasTable;
 
 // An AliasTable's way to draw, without its memory: made by AliasTable::view, trivially copyable.
 template <std::floating_point T = float>
-class AliasTableView : public detail::BasicAliasTable<T, detail::Viewed> {
+class AliasTableView : public detail::IndexTable<T, detail::AliasRows, detail::Viewed> {
     friend class AliasTable<T>;
-    using detail::BasicAliasTable<T, detail::Viewed>::BasicAliasTable;
+    using detail::IndexTable<T, detail::AliasRows, detail::Viewed>::IndexTable;
 };
 
 template <std::floating_point T = float>
-class AliasTable : public detail::BasicAliasTable<T, detail::Owned> {
-    using Base = detail::BasicAliasTable<T, detail::Owned>;
+class AliasTable : public detail::IndexTable<T, detail::AliasRows, detail::Owned> {
+    using Base = detail::IndexTable<T, detail::AliasRows, detail::Owned>;
 
   public:
+    // No weights; another table may be assigned.
+    AliasTable() = default;
+
     // Throws std::invalid_argument for no weights, for one that is NaN, infinite or negative, and where the counts (2^24 in
     // float, 2^31 in double) are too few: for more weights than counts, and if those that are less than a count's worth
     // would take more than a quarter of the draws beyond their share (see require_enough_counts, and FineAliasTable).
@@ -117,7 +75,7 @@ class BasicFineAliasTable {
 
     [[nodiscard]] LUMIS_HD std::size_t size() const noexcept { return table_.size(); }
 
-    // True if all weights are 0: then nothing is drawn, and the probability is 0.
+    // True if all weights are 0, or if there are none: then nothing is drawn, and the probability is 0.
     [[nodiscard]] LUMIS_HD bool empty() const noexcept { return table_.empty(); }
 
     // An index of weight 0 is never drawn.
@@ -131,6 +89,7 @@ class BasicFineAliasTable {
     [[nodiscard]] LUMIS_HD float pdf(Point index) const noexcept { return static_cast<float>(table_.pdf(index)); }
 
   protected:
+    BasicFineAliasTable() = default;
     explicit BasicFineAliasTable(const auto& table) : table_{table} {}
 
     Table table_;
@@ -151,6 +110,9 @@ class FineAliasTable : public detail::BasicFineAliasTable<AliasTable<double>> {
     using Base = detail::BasicFineAliasTable<AliasTable<double>>;
 
   public:
+    // No weights; another table may be assigned.
+    FineAliasTable() = default;
+
     // Throws as AliasTable<double> does. Keeps 8 bytes a weight.
     explicit FineAliasTable(std::span<const float> weights) : Base{weights} {}
     template <detail::RangeOfOther<float> R>

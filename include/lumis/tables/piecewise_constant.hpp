@@ -30,37 +30,43 @@ class BasicPiecewiseConstant1D {
     using Measure = measure::Lebesgue;
     static constexpr int dimensions = 1;
 
-    [[nodiscard]] LUMIS_HD std::size_t size() const noexcept { return table_.entries(); }
+    [[nodiscard]] LUMIS_HD std::size_t size() const noexcept { return size_; }
 
-    // True if all weights are 0: then nothing is drawn, and the density is 0.
+    // True if all weights are 0, or if there are none: then nothing is drawn, and the density is 0.
     [[nodiscard]] LUMIS_HD bool empty() const noexcept { return !(density_of_count_ > 0); }
 
     // A cell of weight 0 is never drawn.
     [[nodiscard]] LUMIS_HD Sample<Point, T> sample(glm::vec<1, T> u) const noexcept {
         const auto drawn = table_.draw(0, u.x);
-        const T x =
-            real::divide(static_cast<T>(drawn.index) + clear_of_edges(drawn.position, size()), static_cast<T>(size()));
+        const T x = real::divide(static_cast<T>(drawn.index) + clear_of_edges(drawn.position, table_.entries()),
+                                 static_cast<T>(table_.entries()));
         return {x, density(drawn.counts)};
     }
 
     [[nodiscard]] LUMIS_HD T pdf(Point x) const noexcept {
-        return x >= 0 && x <= 1 ? density(table_.counts(0, index_of(x, size()))) : T(0);
+        return x >= 0 && x <= 1 ? density(table_.counts(0, index_of(x, table_.entries()))) : T(0);
     }
 
     [[nodiscard]] LUMIS_HD glm::vec<1, T> invert(Point x) const noexcept {
-        const std::size_t index = index_of(x, size());
-        return glm::vec<1, T>{table_.uniform_of(0, index, x * static_cast<T>(size()) - static_cast<T>(index))};
+        const std::size_t index = index_of(x, table_.entries());
+        return glm::vec<1, T>{
+            table_.uniform_of(0, index, x * static_cast<T>(table_.entries()) - static_cast<T>(index))};
     }
 
   protected:
+    BasicPiecewiseConstant1D() requires Owns<Array> : BasicPiecewiseConstant1D{std::span<const double>{no_weight}} {
+        size_ = 0;
+    }
+
     template <class Weight>
-    explicit BasicPiecewiseConstant1D(std::span<const Weight> weights) : table_{checked_size<T>(weights.size()), 1} {
+    explicit BasicPiecewiseConstant1D(std::span<const Weight> weights)
+        : table_{checked_size<T>(weights.size()), 1}, size_{weights.size()} {
         const Dealt dealt = deal_checked<T>(table_, weights);
         density_of_count_ = dealt.value > 0 ? static_cast<T>(size()) / static_cast<T>(total_counts<T>) : T(0);
     }
 
     BasicPiecewiseConstant1D(const BasicPiecewiseConstant1D<T, Owned>& owner, auto& place)
-        : table_{owner.table_, place}, density_of_count_{owner.density_of_count_} {}
+        : table_{owner.table_, place}, size_{owner.size_}, density_of_count_{owner.density_of_count_} {}
 
   private:
     template <std::floating_point, template <class> class>
@@ -71,6 +77,7 @@ class BasicPiecewiseConstant1D {
     }
 
     GuidedRows<T, Array> table_;
+    std::size_t size_;
     T density_of_count_;  // 0 if nothing is drawn
 };
 
@@ -83,18 +90,18 @@ class BasicPiecewiseConstant2D {
     using Measure = measure::Lebesgue;
     static constexpr int dimensions = 2;
 
-    [[nodiscard]] LUMIS_HD std::size_t width() const noexcept { return grid_.width(); }
-    [[nodiscard]] LUMIS_HD std::size_t height() const noexcept { return grid_.height(); }
+    [[nodiscard]] LUMIS_HD std::size_t width() const noexcept { return grid_.columns(); }
+    [[nodiscard]] LUMIS_HD std::size_t height() const noexcept { return grid_.rows(); }
 
-    // True if all weights are 0: then nothing is drawn, and the density is 0.
+    // True if all weights are 0, or if there are none: then nothing is drawn, and the density is 0.
     [[nodiscard]] LUMIS_HD bool empty() const noexcept { return grid_.empty(); }
 
     // u.y draws the row, u.x the cell within it; x runs along a row.
     [[nodiscard]] LUMIS_HD Sample<Point, T> sample(glm::vec<2, T> u) const noexcept {
         if (empty()) return {};
         const auto drawn = grid_.draw(u);
-        const Point x{real::divide(static_cast<T>(drawn.column) + drawn.position.x, static_cast<T>(width())),
-                      real::divide(static_cast<T>(drawn.row) + drawn.position.y, static_cast<T>(height()))};
+        const Point x{real::divide(static_cast<T>(drawn.column) + drawn.position.x, static_cast<T>(grid_.width())),
+                      real::divide(static_cast<T>(drawn.row) + drawn.position.y, static_cast<T>(grid_.height()))};
         return {x, static_cast<T>(drawn.counts) * densities_of_count_[drawn.row]};
     }
 
@@ -109,6 +116,11 @@ class BasicPiecewiseConstant2D {
     }
 
   protected:
+    BasicPiecewiseConstant2D() requires Owns<Array>
+        : BasicPiecewiseConstant2D{1, 1, std::span<const double>{no_weight}, InOrder{}} {
+        grid_.tell_no_size();
+    }
+
     template <class Weight>
     BasicPiecewiseConstant2D(std::integral auto width, std::integral auto height, std::span<const Weight> weights,
                              const auto& for_each_row)
@@ -162,6 +174,9 @@ class PiecewiseConstant1D : public detail::BasicPiecewiseConstant1D<T, detail::O
     using Base = detail::BasicPiecewiseConstant1D<T, detail::Owned>;
 
   public:
+    // No weights; another table may be assigned.
+    PiecewiseConstant1D() = default;
+
     // Throws std::invalid_argument for no weights, for one that is NaN, infinite or negative, and for more than there are
     // counts (2^24 in float), or too many dim ones (see require_enough_counts). All-zero weights are legal, see empty().
     // Keeps 6 bytes a weight.
@@ -182,6 +197,9 @@ class PiecewiseConstant2D : public detail::BasicPiecewiseConstant2D<T, detail::O
     using Base = detail::BasicPiecewiseConstant2D<T, detail::Owned>;
 
   public:
+    // No weights; another table may be assigned.
+    PiecewiseConstant2D() = default;
+
     // weights: width x height values, row by row. Throws as PiecewiseConstant1D does, and for a size that does not match.
     // for_each_row: see detail::InOrder. Keeps 6 bytes a weight, and 16 more a row; 20 in double.
     template <class ForEachRow = detail::InOrder>

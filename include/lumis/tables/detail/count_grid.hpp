@@ -56,6 +56,7 @@ class CountGrid {
         : width_{owner.width_},
           height_{owner.height_},
           empty_{owner.empty_},
+          tells_size_{owner.tells_size_},
           rows_{owner.rows_, place},
           cells_{owner.cells_, place} {}
 
@@ -90,6 +91,11 @@ class CountGrid {
     [[nodiscard]] LUMIS_HD std::size_t width() const noexcept { return width_; }
     [[nodiscard]] LUMIS_HD std::size_t height() const noexcept { return height_; }
     [[nodiscard]] LUMIS_HD bool empty() const noexcept { return empty_; }
+
+    // The size that is told to the world: 0 x 0 of a default-constructed table, see no_weight.
+    [[nodiscard]] LUMIS_HD std::size_t columns() const noexcept { return tells_size_ ? width_ : 0; }
+    [[nodiscard]] LUMIS_HD std::size_t rows() const noexcept { return tells_size_ ? height_ : 0; }
+    void tell_no_size() noexcept { tells_size_ = false; }
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return rows_.memory_bytes() + cells_.memory_bytes(); }
 
     // u.y draws the row, u.x the cell within it. The position stays a few units in the last place clear of the cell's edges:
@@ -171,7 +177,7 @@ class CountGrid {
     }
 
     std::size_t width_, height_;
-    bool empty_ = true;
+    bool empty_ = true, tells_size_ = true;
     GuidedRows<T, Array> rows_;  // one table of all rows
     Rows<T, Array> cells_;       // a table of each row's cells
 };

@@ -35,6 +35,9 @@ struct InOrder {
     }
 };
 
+// What a default-constructed table holds: one weight of 0, from which nothing is drawn. Only its size is told as 0.
+inline constexpr double no_weight[] = {0};
+
 template <class Weight>
 [[nodiscard]] constexpr bool is_weight(Weight weight) noexcept {
     return (weight >= 0) &
