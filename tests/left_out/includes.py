@@ -24,6 +24,7 @@ ROOMS = {
     "batch": [*SCATTERING, "lights/", "combine/"],
     "statistics": ["core/"],
     "testing": [*SCATTERING, "lights/", "combine/", "batch/", "statistics/"],
+    "fwd.hpp": ["core/platform", "core/scalar", "core/detail/isa"],  # no GLM
 }
 STRATEGIES = ("tables/", "directions/", "microfacets/", "lights/")
 # Headers that are built upon a strategy, or upon a surface or shape that users include as well.
@@ -67,5 +68,13 @@ for name, included in headers.items():
     if not by_name and name not in all_of_it and not any(name in headers[other] for other in headers):
         wrong.append(f"lumis.hpp does not include {name}")
 
+# What fwd.hpp declares is defined somewhere; lumis.hpp, which includes both, would not compile if they did not agree.
+declaration = re.compile(r"^(?:class|struct|enum class) (\w+)(?: final)?(;| |$)", re.MULTILINE)
+declared = [name for name, end in declaration.findall((root / "lumis/fwd.hpp").read_text()) if end == ";"]
+defined = {
+    name for header in headers for name, end in declaration.findall((root / "lumis" / header).read_text()) if end != ";"
+}
+wrong += [f"fwd.hpp declares {name}, which no header defines" for name in declared if name not in defined]
+
 print("\n".join(wrong) or f"{len(headers)} headers include {sum(map(len, headers.values()))} others, all as they may.")
-sys.exit(1 if wrong or len(headers) < 40 else 0)
+sys.exit(1 if wrong or len(headers) < 40 or len(declared) < 50 else 0)

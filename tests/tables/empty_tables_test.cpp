@@ -1,4 +1,23 @@
-// Default-constructed tables and maps: without weights, harmless, and assignable, so that a host's structs may hold them.
+// What a host's structs hold: types declared ahead of their definition, and default-constructed tables and maps, which are
+// without weights, harmless, and assignable.
+#include <lumis/fwd.hpp>
+
+namespace {
+
+// A host's header, which includes no more than that.
+class Renderer {
+  public:
+    Renderer(const lumis::EnvironmentMap<float>& sky, const lumis::DiscreteTable<float>* powers)
+        : sky_{sky}, powers_{powers} {}
+    [[nodiscard]] float chance(const lumis::Frame<float>& frame, lumis::GgxReflection<float> bsdf) const;
+
+  private:
+    const lumis::EnvironmentMap<float>& sky_;
+    const lumis::DiscreteTable<float>* powers_;
+};
+
+}  // namespace
+
 #include "catch.hpp"
 #include "copies.hpp"
 #include "exceptions.hpp"
@@ -94,6 +113,18 @@ TEST_CASE("a default-constructed table raises no floating-point exceptions", "[e
                   keep(plane.invert({unknown(u), unknown(u)}));
               }
           }) == 0);
+}
+
+float Renderer::chance(const lumis::Frame<float>& frame, lumis::GgxReflection<float> bsdf) const {
+    return powers_->pdf(0) * sky_.pdf(frame.to_world(bsdf.sample({0.5f, 0.5f}).value));
+}
+
+TEST_CASE("types that a host's header declares are those that its source uses", "[fwd]") {
+    const lumis::EnvironmentMap sky{2, 1, std::vector<float>{1, 1}};
+    const lumis::DiscreteTable powers{std::vector<float>{1, 3}};
+    const Renderer renderer{sky, &powers};
+    const glm::vec3 wo{0, 0.6f, 0.8f};
+    CHECK(renderer.chance(lumis::Frame{glm::vec3{0, 0, 1}}, {wo, 0.3f}) == Approx(0.25 / (4 * 3.14159265)));
 }
 
 TEST_CASE("a set of no lights takes a default-constructed table", "[light_set]") {

@@ -90,11 +90,6 @@ template <class V>
 template <class R>
 using scalar_of = typename detail::ScalarOf<R>::type;
 
-template <class R>
-concept Real = FloatOrDouble<R> || requires {
-    typename R::Lane;
-};
-
 // A T or, where T is a number, lanes of it: what the kernel of a strategy with parameters T takes.
 template <class R, class T>
 concept RealOf = Real<R> &&(std::same_as<R, T> || std::same_as<scalar_of<R>, T>);

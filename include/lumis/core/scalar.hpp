@@ -1,4 +1,4 @@
-// The floating-point types that kernels are made for.
+// The numbers that kernels are made for, and their parameters.
 #pragma once
 
 #include "lumis/core/platform.hpp"
@@ -12,6 +12,12 @@ namespace lumis::LUMIS_ISA {
 // long double is refused: lattices of uniforms, polynomials and tolerances are those of 24 and of 53 bits.
 template <class T>
 concept FloatOrDouble = std::same_as<T, float> || std::same_as<T, double>;
+
+// What kernels are written for: a number, or lanes of numbers (see real.hpp and lanes.hpp).
+template <class R>
+concept Real = FloatOrDouble<R> || requires {
+    typename R::Lane;
+};
 
 namespace detail {
 

@@ -1,0 +1,140 @@
+// Names of Lumis's types, for a host's headers that mention but do not use them: pointers, references, function parameters.
+// Next to nothing to compile, and no GLM.
+//
+// Default template arguments belong to the definitions: with this header alone, write `lumis::EnvironmentMap<float>`. What
+// is never spelt out but deduced is not here: Mixture, Reflected, Combination. lumis.hpp defines all the rest.
+#pragma once
+
+#include "lumis/core/platform.hpp"
+#include "lumis/core/scalar.hpp"
+
+#include <concepts>
+#include <cstddef>
+
+namespace lumis::LUMIS_ISA {
+
+// core
+namespace measure {
+struct SolidAngle;
+struct Area;
+struct Lebesgue;
+struct Counting;
+}  // namespace measure
+template <class Point, Real Scalar>
+struct Sample;
+template <class Point, Real Scalar>
+struct LightSample;
+template <Real T>
+class Frame;
+template <std::signed_integral Bits, std::size_t N>
+class LaneMask;
+template <std::floating_point T, std::size_t N>
+class Lanes;
+template <class Urbg, FloatOrDouble T>
+class Uniforms;
+template <FloatOrDouble T, class F>
+class UniformsFrom;
+struct delta_t;
+
+// tables
+template <std::floating_point T>
+class AliasTable;
+template <std::floating_point T>
+class AliasTableView;
+class FineAliasTable;
+class FineAliasTableView;
+template <std::floating_point T>
+class DiscreteTable;
+template <std::floating_point T>
+class DiscreteTableView;
+template <std::floating_point T>
+struct RemappedIndex;
+template <std::floating_point T>
+class PiecewiseConstant1D;
+template <std::floating_point T>
+class PiecewiseConstant1DView;
+template <std::floating_point T>
+class PiecewiseConstant2D;
+template <std::floating_point T>
+class PiecewiseConstant2DView;
+
+// directions
+template <Real T>
+struct CosineHemisphere;
+template <Real T>
+struct UniformHemisphere;
+template <Real T>
+struct UniformSphere;
+
+// microfacets
+template <Real T>
+class Ggx;
+template <Real T>
+class GgxNdf;
+template <Real T>
+struct GgxVndf;
+template <Real T>
+struct GgxReflection;
+template <Real T>
+struct GgxBoundedReflection;
+template <Real T>
+class PerfectReflection;
+
+// lights
+template <Real T>
+struct Triangle;
+template <Real T>
+struct Parallelogram;
+template <Real T>
+struct Disk;
+template <Real T>
+struct Sphere;
+struct ByArea;
+struct BySolidAngle;
+template <class S, class Sampling>
+class AreaLight;
+template <Real R>
+struct SurfaceSample;
+template <Real R>
+struct SurfaceHit;
+template <std::floating_point T>
+class PointLight;
+template <std::floating_point T>
+class DirectionalLight;
+enum class Interpolation;
+struct EnvironmentOptions;
+template <std::floating_point T>
+class EnvironmentMap;
+template <std::floating_point T>
+class EnvironmentMapView;
+template <std::floating_point T>
+class AliasEnvironmentMap;
+template <std::floating_point T>
+class AliasEnvironmentMapView;
+template <class Lights, class Table>
+class LightSet;
+
+// combine
+struct BalanceHeuristic;
+struct PowerHeuristic;
+struct MaximumHeuristic;
+struct CutoffHeuristic;
+struct EqualWeights;
+template <class Owner>
+struct PartitionWeights;
+template <class S>
+struct Take;
+template <class S>
+struct Choose;
+template <class HeldStrategy>
+class InFrame;
+template <class H, class... S>
+class MultiSample;
+template <class H, class... S>
+class OneSample;
+
+// statistics
+template <std::floating_point T>
+class RunningMoments;
+
+}  // namespace lumis::LUMIS_ISA
