@@ -61,6 +61,10 @@ TEMPLATE_TEST_CASE("GGX equals the textbook", "[ggx]", float, double) {
             CHECK(ggx.G1(wo) == Approx(1 / (1 + lambda_a)).epsilon(tolerance));
             CHECK(ggx.G2(wo, wi) == Approx(1 / (1 + lambda_a + lambda_b)).epsilon(tolerance));
             CHECK(ggx.brdf(wo, wi) == Approx(textbook::brdf(a, b, alpha)).epsilon(tolerance));
+            const double separable = 1 / ((1 + lambda_a) * (1 + lambda_b));
+            CHECK(ggx.G2_separable(wo, wi) == Approx(separable).epsilon(tolerance));
+            CHECK(ggx.brdf_separable(wo, wi) ==
+                  Approx(textbook::brdf(a, b, alpha) * separable * (1 + lambda_a + lambda_b)).epsilon(tolerance));
             // Heitz 2014, eq. 16; and the reflection of wo about a normal wm, through which wi came.
             const V half = glm::normalize(a + b);
             const double vndf = textbook::D(half, alpha) * glm::dot(a, half) / ((1 + lambda_a) * a.z);

@@ -1,4 +1,5 @@
-// The GGX (Trowbridge-Reitz) distribution of microfacet normals, anisotropic, with height-correlated Smith shadowing.
+// The GGX (Trowbridge-Reitz) distribution of microfacet normals, anisotropic, with Smith shadowing: height-correlated
+// unless separable is asked for.
 // Local frame, +z the shading normal. Walter et al. 2007; Heitz 2014, "Understanding the Masking-Shadowing Function".
 #pragma once
 
@@ -105,6 +106,32 @@ class Ggx {
         return D<R>(Direction<R>(wo) + wi) * visibility(wo, wi);
     }
 
+    // The same with separable shadowing, G1(wo) G1(wi), for hosts whose pictures are made with it. It takes masking and
+    // shadowing for independent, and so is a little darker. Walter et al. 2007, eq. 23; Heitz 2014, eq. 98.
+    template <RealOf<T> R = T>
+    [[nodiscard]] LUMIS_HD R G2_separable(const Direction<T>& wo, const Direction<R>& wi) const noexcept {
+        return G1(wo) * G1<R>(wi);
+    }
+    template <RealOf<T> R = T>
+    [[nodiscard]] LUMIS_HD R brdf_separable(const Direction<T>& wo, const Direction<R>& wi) const noexcept {
+        return D<R>(Direction<R>(wo) + wi) * visibility_separable(wo, wi);
+    }
+
+    // The G2 of either kind over 4 cos cos, with the cosines cancelled by hand so that grazing directions divide nothing by
+    // 0; 0 from below.
+    template <RealOf<T> R = T>
+    [[nodiscard]] LUMIS_HD R visibility(const Direction<T>& wo, const Direction<R>& wi) const noexcept {
+        const auto seen = wo.z > 0 && valid();
+        if (real::all(!seen)) return 0;
+        const R divisor = wo.z * stretched_length(wi) + wi.z * stretched_length(wo);
+        return real::quotient_where(seen && wi.z > 0 && divisor > 0, R(scalar_of<R>(0.5)), divisor);
+    }
+    template <RealOf<T> R = T>
+    [[nodiscard]] LUMIS_HD R visibility_separable(const Direction<T>& wo, const Direction<R>& wi) const noexcept {
+        const R divisor = (wo.z + stretched_length(wo)) * (wi.z + stretched_length(wi));
+        return real::quotient_where(wo.z > 0 && valid() && wi.z > 0, R(scalar_of<R>(1)), divisor);
+    }
+
   private:
     LUMIS_HD static T in_range(T alpha) noexcept {
         using Number = scalar_of<T>;
@@ -112,15 +139,6 @@ class Ggx {
                             0);
     }
     [[nodiscard]] LUMIS_HD MaskOf<T> valid() const noexcept { return alpha_.x > 0; }
-
-    // G2 / (4 wo.z wi.z), with the cosines cancelled by hand so that grazing directions divide nothing by 0.
-    template <RealOf<T> R>
-    [[nodiscard]] LUMIS_HD R visibility(const Direction<T>& wo, const Direction<R>& wi) const noexcept {
-        const auto seen = wo.z > 0 && valid();
-        if (real::all(!seen)) return 0;
-        const R divisor = wo.z * stretched_length(wi) + wi.z * stretched_length(wo);
-        return real::quotient_where(seen && wi.z > 0 && divisor > 0, R(scalar_of<R>(0.5)), divisor);
-    }
 
     glm::vec<2, T> alpha_;
     glm::vec<2, T> inverse_alpha_{};  // 0 if out of range

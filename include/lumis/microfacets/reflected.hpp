@@ -56,6 +56,20 @@ class Reflected {
         return density_or_zero(real::select(wi.z > 0 && wo_.z > 0, density, 0));
     }
 
+    // What a sample is worth: reflectance times wi.z over the density, with Fresnel reflectance 1. From 0 to 1. D, which a
+    // smooth surface makes huge, is not formed. Separable: with G1(wo) G1(wi) for G2, see Ggx.
+    template <RealOf<Scalar> R = Scalar>
+    [[nodiscard]] LUMIS_HD R weight(const Direction<R>& wi) const noexcept requires requires(const Normals& normals) {
+        normals.reflection_weight(wi);
+    }
+    { return normals_.reflection_weight(wi); }
+    template <RealOf<Scalar> R = Scalar>
+    [[nodiscard]] LUMIS_HD R weight_separable(const Direction<R>& wi) const noexcept requires
+        requires(const Normals& normals) {
+        normals.reflection_weight_separable(wi);
+    }
+    { return normals_.reflection_weight_separable(wi); }
+
     [[nodiscard]] LUMIS_HD UniformsOf<Normals> invert(const Point& wi) const noexcept requires
         InvertibleStrategy<Normals> {
         const Point half = wo_ + wi;

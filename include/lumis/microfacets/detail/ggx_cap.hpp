@@ -66,6 +66,16 @@ class GgxCap {
         return masking_ * ggx_.D(wm);
     }
 
+    // The GGX reflectance times wi.z over the density of wi by reflection, see Reflected::weight. D cancels.
+    template <RealOf<T> R = T>
+    [[nodiscard]] LUMIS_HD R reflection_weight(const Direction<R>& wi) const noexcept {
+        return weight_of(wi, R(ggx_.visibility(wo_, wi)));
+    }
+    template <RealOf<T> R = T>
+    [[nodiscard]] LUMIS_HD R reflection_weight_separable(const Direction<R>& wi) const noexcept {
+        return weight_of(wi, R(ggx_.visibility_separable(wo_, wi)));
+    }
+
     [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& wm) const noexcept {
         const Direction<T> stretched{real::divide(wm.x, ggx_.alpha().x), real::divide(wm.y, ggx_.alpha().y), wm.z};
         const Direction<T> half = real::divide(stretched, real::length(stretched));
@@ -76,6 +86,11 @@ class GgxCap {
     [[nodiscard]] LUMIS_HD const Ggx<T>& ggx() const noexcept { return ggx_; }
 
   private:
+    template <Real R>
+    [[nodiscard]] LUMIS_HD R weight_of(const Direction<R>& wi, R visibility) const noexcept {
+        return real::quotient_where(wi.z > 0 && masking_ > 0, R(4 * wi.z * visibility), R(masking_));
+    }
+
     Ggx<T> ggx_;
     Direction<T> wo_;
     Direction<T> wo_std_{T(0)};  // wo stretched by alpha, unit
