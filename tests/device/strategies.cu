@@ -25,7 +25,7 @@ LUMIS_HD void put(float*& out, const glm::vec<N, float>& x) {
 // A point and its density, both from sample and from pdf, the distance of a light, and what invert makes of the point.
 template <class S>
 struct Strategies {
-    static constexpr int size = 10;
+    static constexpr int size = 15;
     S strategy;
 
     LUMIS_HD void operator()(unsigned index, float* out) const {
@@ -37,6 +37,10 @@ struct Strategies {
             put(out, strategy.pdf(sample.value));
             if constexpr (requires { sample.distance; }) put(out, sample.distance);
             if constexpr (LightStrategy<S>) put(out, strategy.distance_along(sample.value));
+            if constexpr (SurfaceStrategy<S>) {
+                put(out, sample.surface.position);
+                put(out, strategy.hit_along(sample.value).surface.uv);
+            }
             if constexpr (InvertibleStrategy<S>) put(out, strategy.invert(sample.value));
         }
         put(out, sample.pdf);
@@ -78,7 +82,8 @@ template <class Sampling, class... Shape>
 bool check_shapes(const char* sampling, const Shape&... shapes) {
     std::puts(sampling);
     const glm::vec3 point{0.1f, -0.2f, 0.3f};
-    return (check("  area light", AreaLight<Shape, Sampling>{shapes, point}) & ...);
+    return (check("  area light", AreaLight<Shape, Sampling>{shapes, point}) & ...) &
+           (check("  surface light", SurfaceLight<Shape, Sampling>{shapes, point, Sides::Both}) & ...);
 }
 
 bool check_lights() {

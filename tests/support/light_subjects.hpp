@@ -41,6 +41,7 @@ struct TriangleByArea {
         struct Case {
             const char* label;
             V a, b, c, reference;
+            lumis::Sides sides = lumis::Sides::Both;
         };
         const Case cases[] = {
             {"above", {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 0}},
@@ -49,13 +50,17 @@ struct TriangleByArea {
             {"sliver", {-1, 0, 2}, {1, 0, 2}, {1, 0.002, 2}, {0, 0, 0}},
             {"tiny", {0.0001, 0, 1}, {0, 0.0001, 1}, {0, 0, 1}, {0.3, 0.2, -1}},
             {"nearly edge-on", {1, 0, 0.01}, {2, 0.5, 0.01}, {1.5, 1, 0.02}, {0, 0, 0}},
+            {"of one side", {0, 0, 1}, {0, 1, 1}, {1, 0, 1}, {0, 0, 0}, lumis::Sides::One},
         };
         std::vector<Subject<lumis::AreaLight<lumis::Triangle<T>>>> result;
-        for (const auto& [name, a, b, c, reference] : cases) {
+        for (const auto& [name, a, b, c, reference, sides] : cases) {
             const lumis::Triangle<T> triangle{glm::vec<3, T>(a), glm::vec<3, T>(b), glm::vec<3, T>(c)};
             const auto [chart, blur] = view_of((a + b + c) / 3.0 - reference, (b - a) / 2.0, (c - a) / 2.0);
-            result.push_back(
-                {name, {triangle, glm::vec<3, T>(reference)}, chart, 1.0, blur * std::numeric_limits<T>::epsilon()});
+            result.push_back({name,
+                              {triangle, glm::vec<3, T>(reference), sides},
+                              chart,
+                              1.0,
+                              blur * std::numeric_limits<T>::epsilon()});
             result.back().integrand = meets(triangle, reference);
         }
         return result;
@@ -69,18 +74,20 @@ struct ParallelogramByArea {
         struct Case {
             const char* label;
             V corner, edge_u, edge_v;
+            lumis::Sides sides = lumis::Sides::Both;
         };
         const Case cases[] = {
             {"square above", {-1, -1, 1}, {2, 0, 0}, {0, 2, 0}},
             {"skew", {1, -1, 2}, {2, 0.5, 1}, {-1, 1, 0.3}},
             {"filling the view", {-1, -1, 0.05}, {2, 0, 0}, {0, 2, 0}},
             {"strip", {-3, 0.5, 1}, {6, 0, 0}, {0, 0.01, 0}},
+            {"of one side", {1, -1, 2}, {-1, 1, 0.3}, {2, 0.5, 1}, lumis::Sides::One},
         };
         std::vector<Subject<lumis::AreaLight<lumis::Parallelogram<T>>>> result;
-        for (const auto& [name, corner, edge_u, edge_v] : cases) {
+        for (const auto& [name, corner, edge_u, edge_v, sides] : cases) {
             const lumis::Parallelogram<T> shape{glm::vec<3, T>(corner), glm::vec<3, T>(edge_u), glm::vec<3, T>(edge_v)};
             const auto [chart, blur] = view_of(corner + (edge_u + edge_v) / 2.0, edge_u / 2.0, edge_v / 2.0);
-            result.push_back({name, {shape, {}}, chart, 1.0, blur * std::numeric_limits<T>::epsilon()});
+            result.push_back({name, {shape, {}, sides}, chart, 1.0, blur * std::numeric_limits<T>::epsilon()});
             result.back().integrand = meets(shape, {});
         }
         return result;
@@ -95,19 +102,21 @@ struct DiskByArea {
             const char* label;
             V center, normal;
             double radius;
+            lumis::Sides sides = lumis::Sides::Both;
         };
         const Case cases[] = {
             {"above", {0, 0, 1}, {0, 0, -1}, 1},
             {"tilted and far", {10, 3, 20}, {1, 2, 2}, 2},
             {"filling the view", {0.1, 0, 0.05}, {0, 0, 1}, 1},
             {"tiny", {0.3, 0.2, 1}, {0.2, 0, 1}, 1e-4},
+            {"of one side", {0.3, 0.2, 1}, {0.2, 0, -1}, 0.5, lumis::Sides::One},
         };
         std::vector<Subject<lumis::AreaLight<lumis::Disk<T>>>> result;
-        for (const auto& [name, center, normal, radius] : cases) {
+        for (const auto& [name, center, normal, radius, sides] : cases) {
             const lumis::Frame<double> frame{glm::normalize(normal)};
             const lumis::Disk<T> disk{glm::vec<3, T>(center), glm::vec<3, T>(normal), static_cast<T>(radius)};
             const auto [chart, blur] = view_of(center, radius * frame.tangent(), radius * frame.bitangent());
-            result.push_back({name, {disk, {}}, chart, 1.0, blur * std::numeric_limits<T>::epsilon()});
+            result.push_back({name, {disk, {}, sides}, chart, 1.0, blur * std::numeric_limits<T>::epsilon()});
             result.back().integrand = meets(disk, {});
         }
         return result;

@@ -31,6 +31,7 @@ struct TriangleBySolidAngle {
         struct Case {
             const char* label;
             V a, b, c, reference;
+            lumis::Sides sides = lumis::Sides::Both;
         };
         const Case cases[] = {
             {"above", {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 0}},
@@ -40,12 +41,14 @@ struct TriangleBySolidAngle {
             {"1e-8 sr", {0.00015, 0, 1}, {0, 0.00015, 1}, {0, 0, 1}, {0, 0, 0}},
             {"nearly edge-on", {1, 0, 0.01}, {2, 0.5, 0.01}, {1.5, 1, 0.02}, {0, 0, 0}},
             {"6.28 sr", {4000, 0, 1}, {-2000, 3000, 1}, {-2000, -3000, 1}, {0, 0, 0}},
+            {"of one side", {0, 0, 1}, {0, 1, 1}, {1, 0, 1}, {0, 0, 0}, lumis::Sides::One},
         };
         std::vector<Subject<lumis::AreaLight<lumis::Triangle<T>, lumis::BySolidAngle>>> result;
-        for (const auto& [name, a, b, c, reference] : cases) {
+        for (const auto& [name, a, b, c, reference, sides] : cases) {
             const lumis::Triangle<T> triangle{glm::vec<3, T>(a), glm::vec<3, T>(b), glm::vec<3, T>(c)};
             const auto [chart, blur] = view_of((a + b + c) / 3.0 - reference, (b - a) / 2.0, (c - a) / 2.0);
-            const lumis::AreaLight<lumis::Triangle<T>, lumis::BySolidAngle> light{triangle, glm::vec<3, T>(reference)};
+            const lumis::AreaLight<lumis::Triangle<T>, lumis::BySolidAngle> light{triangle, glm::vec<3, T>(reference),
+                                                                                  sides};
             result.push_back({name,
                               light,
                               chart,
@@ -67,6 +70,7 @@ struct ParallelogramBySolidAngle {
         struct Case {
             const char* label;
             V corner, edge_u, edge_v;
+            lumis::Sides sides = lumis::Sides::Both;
         };
         const Case cases[] = {
             {"square above", {-1, -1, 1}, {2, 0, 0}, {0, 2, 0}},
@@ -79,12 +83,13 @@ struct ParallelogramBySolidAngle {
             {"skew of 1e-8 sr", {0.25, 0, 1}, {0.0001, 0, 0}, {0.00005, 0.0001, 0}},
             {"square of 6.28 sr", {-2000, -2000, 1}, {4000, 0, 0}, {0, 4000, 0}},
             {"skew of 6.28 sr", {-3000, -2000, 1}, {4000, 0, 0}, {2000, 4000, 0}},
+            {"of one side", {1, -1, 2}, {-1, 1, 0.3}, {2, 0.5, 1}, lumis::Sides::One},
         };
         std::vector<Subject<lumis::AreaLight<lumis::Parallelogram<T>, lumis::BySolidAngle>>> result;
-        for (const auto& [name, corner, edge_u, edge_v] : cases) {
+        for (const auto& [name, corner, edge_u, edge_v, sides] : cases) {
             const lumis::Parallelogram<T> shape{glm::vec<3, T>(corner), glm::vec<3, T>(edge_u), glm::vec<3, T>(edge_v)};
             const auto [chart, blur] = view_of(corner + (edge_u + edge_v) / 2.0, edge_u / 2.0, edge_v / 2.0);
-            const lumis::AreaLight<lumis::Parallelogram<T>, lumis::BySolidAngle> light{shape, {}};
+            const lumis::AreaLight<lumis::Parallelogram<T>, lumis::BySolidAngle> light{shape, {}, sides};
             auto round_trip = few_digits;
             // Urena's sum of angles, of which small rectangles have few digits; smaller ones are split into triangles.
             if (light.solid_angle() > 1e5f * std::numeric_limits<T>::epsilon()) {

@@ -209,12 +209,16 @@ class Combination {
     }
 
     // A sample of technique I as an integrand sees it. Where lights are combined it has the distance to the nearest of
-    // them, whichever technique drew it and whatever the counts: the integrand is the same function for all.
+    // them, and its surface if they tell it, whichever technique drew it and whatever the counts: the integrand is the same
+    // function for all.
     template <std::size_t I, bool only_point, Real R, class Drawn>
     [[nodiscard]] LUMIS_HD decltype(auto) seen(const Drawn& sample) const noexcept {
         constexpr bool is_delta_light = is_delta<I> && detail::DrawsDistance<Nth<I>>;
         if constexpr (only_point || size == 1 || is_delta_light) {
             return (sample);
+        } else if constexpr (detail::KnowSurface<S0, std::remove_cvref_t<Rest>...>) {
+            return detail::with_hit(sample,
+                                    detail::nearest_hit<I>(strategies_, sample.value, detail::own_hit<R>(sample)));
         } else if constexpr (detail::KnowNearest<S0, std::remove_cvref_t<Rest>...>) {
             const R own = detail::own_distance<R>(sample);
             return detail::with_distance(sample, detail::nearest_along<I>(strategies_, sample.value, own));

@@ -25,6 +25,11 @@ template <class First, class... Rest>
 class Mixture {
     using S0 = std::remove_cvref_t<First>;
     static constexpr bool knows_nearest = detail::KnowNearest<S0, std::remove_cvref_t<Rest>...>;
+    static constexpr bool knows_surface = detail::KnowSurface<S0, std::remove_cvref_t<Rest>...>;
+
+    template <class X, Real R, bool with_distance>
+    using SampleOf = std::conditional_t<!with_distance, Sample<X, R>,
+                                        std::conditional_t<knows_surface, SurfaceLightSample<X, R>, LightSample<X, R>>>;
 
     static constexpr std::size_t size = 1 + sizeof...(Rest);
     static constexpr int part_dimensions = real::largest_of(
@@ -36,8 +41,9 @@ class Mixture {
     using Measure = typename S0::Measure;
     static constexpr int dimensions = part_dimensions + 1;
 
-    // A mixture with a light is a light. Its samples have the distance to the nearest one, whichever part drew them.
-    using SampleType = std::conditional_t<knows_nearest, LightSample<Point, Scalar>, Sample<Point, Scalar>>;
+    // A mixture with a light is a light. Its samples have the distance to the nearest one, and its surface if lights tell it,
+    // whichever part drew them.
+    using SampleType = SampleOf<Point, Scalar, knows_nearest>;
 
     static_assert(dimensions <= 4, "a mixture of mixtures of mixtures needs more uniforms than a glm::vec holds");
     static_assert(!(DeltaStrategy<S0> || ... || DeltaStrategy<std::remove_cvref_t<Rest>>),
@@ -86,11 +92,20 @@ class Mixture {
         return nearest<typename detail::RealAt<Mixture, X>::type>(w);
     }
 
+    // The same, and what stands there.
+    [[nodiscard]] LUMIS_HD LightHit<Scalar> hit_along(const Point& w) const noexcept requires knows_surface {
+        return detail::nearest_hit(parts_, w, LightHit<Scalar>{});
+    }
+    template <detail::PointInLanes<Mixture> X>
+    requires knows_surface [[nodiscard]] LUMIS_HD auto hit_along(const X& w) const noexcept {
+        return detail::nearest_hit(parts_, w, LightHit<typename detail::RealAt<Mixture, X>::type>{});
+    }
+
   private:
     template <Real R>
     using PointAt = typename detail::PointIn<Point, Scalar, R>::type;
     template <Real R, bool with_distance>
-    using SampleIn = std::conditional_t<with_distance, LightSample<PointAt<R>, R>, Sample<PointAt<R>, R>>;
+    using SampleIn = SampleOf<PointAt<R>, R, with_distance>;
     template <std::size_t I>
     using Nth = typename detail::NthStrategy<I, First, Rest...>::type;
 
@@ -132,7 +147,10 @@ class Mixture {
                     if (!(drawn.pdf > 0)) return;
                     result.value = Point(drawn.value);
                     result.pdf = pdf(result.value);
-                    if constexpr (detail::HasDistance<Result>) {
+                    if constexpr (detail::HasSurface<Result>) {
+                        result = detail::with_hit(
+                            result, detail::nearest_hit<i>(parts_, result.value, detail::own_hit<Scalar>(drawn)));
+                    } else if constexpr (detail::HasDistance<Result>) {
                         result.distance =
                             detail::nearest_along<i>(parts_, result.value, detail::own_distance<Scalar>(drawn));
                     }
@@ -147,7 +165,8 @@ class Mixture {
     [[nodiscard]] LUMIS_HD Result draw_lanes(const glm::vec<dimensions, R>& u) const noexcept {
         Result result{};
         std::array<MaskOf<R>, size> drawn_by;
-        R remaining = u.x, distance = std::numeric_limits<scalar_of<R>>::infinity();
+        R remaining = u.x;
+        LightHit<R> hit;
         MaskOf<R> open = true, any_drawn = false;
         detail::for_each_index<size>([&](auto i) {
             const MaskOf<R> selected = open && remaining < probabilities_[i];
@@ -158,15 +177,20 @@ class Mixture {
                 any_drawn = any_drawn || drawn_by[i];
                 open = open && !selected;
                 result.value = detail::select_point(drawn_by[i], drawn.value, result.value);
-                distance = real::select(drawn_by[i], detail::own_distance<R>(drawn), distance);
+                hit.distance = real::select(drawn_by[i], detail::own_distance<R>(drawn), hit.distance);
+                if constexpr (detail::HasSurface<Result>)
+                    hit.surface = detail::select(drawn_by[i], detail::own_hit<R>(drawn).surface, hit.surface);
             }
             remaining -= probabilities_[i];
         });
         result.pdf = real::select(any_drawn, density<R>(result.value), scalar_of<R>(0));
         if constexpr (detail::HasDistance<Result>) {
-            result.distance = distance;
+            result.distance = hit.distance;
+            if constexpr (detail::HasSurface<Result>) result.surface = hit.surface;
             detail::for_each_index<size>([&](auto k) {
-                if constexpr (LightStrategy<Nth<k>>) {
+                if constexpr (LightStrategy<Nth<k>> && detail::HasSurface<Result>) {
+                    detail::keep_nearer(result, detail::hit_in<R>(detail::part<k>(parts_), result.value), !drawn_by[k]);
+                } else if constexpr (LightStrategy<Nth<k>>) {
                     const R other = detail::distance_in<R>(detail::part<k>(parts_), result.value);
                     result.distance = real::select(drawn_by[k], result.distance, real::lesser(result.distance, other));
                 }

@@ -1,4 +1,5 @@
-// A light of finite area as a distribution of directions from a reference point. World space, density per solid angle.
+// A light of finite area as a distribution of directions from a reference point. World space, density per solid angle. It
+// is seen from both sides, or as Sides says.
 // ByArea draws a surface point evenly and converts the density; BySolidAngle draws a direction evenly over what is seen,
 // see area_light_by_solid_angle.hpp.
 #pragma once
@@ -51,6 +52,10 @@ class AreaLight<S, ByArea> {
     LUMIS_INLINE AreaLight(const S& shape, const glm::vec<3, Scalar>& reference_point) noexcept
         : view_{seen_from(shape, reference_point)},
           pdf_area_{real::quotient_where(view_.area() > 0, Scalar(1), view_.area())} {}
+    LUMIS_INLINE AreaLight(const S& shape, const glm::vec<3, Scalar>& reference_point,
+                           Sides sides) noexcept requires detail::SeenFromSides<S>
+        : view_{seen_from(shape, reference_point, sides)},
+          pdf_area_{real::quotient_where(view_.area() > 0, Scalar(1), view_.area())} {}
 
     template <RealOf<Scalar> R = Scalar>
         requires SurfaceView<View, R>
@@ -76,6 +81,22 @@ class AreaLight<S, ByArea> {
         requires SurfaceView<View, R>
     [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept {
         return detail::distance_or_infinity(view_.intersect(w));
+    }
+
+    // What the surface of the light's shape is where w meets it; for w that misses it the distance is infinite.
+    template <RealOf<Scalar> R = Scalar>
+        requires TellsSurface<View, S, R>
+    [[nodiscard]] LUMIS_HD LightHit<R> hit_along(const S& shape, const Direction<R>& w) const noexcept {
+        const SurfaceHit<R> hit = view_.intersect(w);
+        return {detail::distance_or_infinity(hit), view_.surface(shape, w, hit)};
+    }
+
+    // What it is where sample(u) has drawn `drawn`.
+    template <RealOf<Scalar> R = Scalar>
+        requires TellsSurface<View, S, R>
+    [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface(const S& shape, const glm::vec<2, R>& u,
+                                                       const LightSample<Direction<R>, R>& /*drawn*/) const noexcept {
+        return view_.surface(shape, u);
     }
 
     // Not for spheres, on which two points can lie in one direction.
@@ -106,5 +127,7 @@ class AreaLight<S, ByArea> {
 
 template <class S>
 AreaLight(S, glm::vec<3, typename S::Scalar>) -> AreaLight<S, ByArea>;
+template <class S>
+AreaLight(S, glm::vec<3, typename S::Scalar>, Sides) -> AreaLight<S, ByArea>;
 
 }  // namespace lumis::LUMIS_ISA

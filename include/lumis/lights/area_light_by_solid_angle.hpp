@@ -46,8 +46,9 @@ class AreaLight<Sphere<T>, BySolidAngle> {
     using Measure = measure::SolidAngle;
     static constexpr int dimensions = 2;
 
-    LUMIS_INLINE AreaLight(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point) noexcept
-        : view_{sphere, reference_point}, pdf_{detail::uniform_density(view_.solid_angle())} {}
+    LUMIS_INLINE AreaLight(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point,
+                           Sides sides = Sides::Both) noexcept
+        : view_{sphere, reference_point, sides}, pdf_{detail::uniform_density(view_.solid_angle())} {}
 
     // u.x = 0 is the centre of the cone.
     template <RealOf<T> R = T>
@@ -67,6 +68,20 @@ class AreaLight<Sphere<T>, BySolidAngle> {
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept {
         return detail::distance_or_infinity(view_.intersect(w));
+    }
+
+    // What the surface of the light's shape is where w meets it; for w that misses it the distance is infinite.
+    template <RealOf<T> R = T>
+    [[nodiscard]] LUMIS_HD LightHit<R> hit_along(const Sphere<T>& shape, const Direction<R>& w) const noexcept {
+        const SurfaceHit<R> hit = view_.intersect(w);
+        return {detail::distance_or_infinity(hit), view_.surface(shape, w, hit)};
+    }
+
+    // What it is where sample(u) has drawn `drawn`.
+    template <RealOf<T> R = T>
+    [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface(const Sphere<T>& shape, const glm::vec<2, R>& u,
+                                                       const LightSample<Direction<R>, R>& /*drawn*/) const noexcept {
+        return view_.surface_of_direction(shape, u);
     }
 
     [[nodiscard]] LUMIS_HD T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
@@ -89,13 +104,15 @@ class AreaLight<Triangle<T>, BySolidAngle> {
 
     LUMIS_INLINE AreaLight(const Triangle<T>& triangle, const glm::vec<3, T>& reference_point) noexcept
         : AreaLight{detail::FlatShape<Triangle<T>>{triangle, reference_point}} {}
+    LUMIS_INLINE AreaLight(const Triangle<T>& triangle, const glm::vec<3, T>& reference_point, Sides sides) noexcept
+        : AreaLight{detail::FlatShape<Triangle<T>>{triangle, reference_point}.facing(sides)} {}
 
     // u.x cuts off a share of the solid angle by an arc from a to the edge bc; u.y goes along that arc.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_INLINE LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         if (!(pdf_ > 0)) return {};
         const Direction<R> w = seen_.sample(u);
-        return detail::seen_at(w, pdf_, view_.distance_along(w));
+        return detail::seen_at(w, pdf_, view_.meet_plane(w).distance);
     }
 
     template <RealOf<T> R = T>
@@ -109,6 +126,20 @@ class AreaLight<Triangle<T>, BySolidAngle> {
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept {
         return detail::distance_or_infinity(view_.intersect(w));
+    }
+
+    // What the surface of the light's shape is where w meets it; for w that misses it the distance is infinite.
+    template <RealOf<T> R = T>
+    [[nodiscard]] LUMIS_HD LightHit<R> hit_along(const Triangle<T>& shape, const Direction<R>& w) const noexcept {
+        const SurfaceHit<R> hit = view_.intersect(w);
+        return {detail::distance_or_infinity(hit), view_.surface(shape, w, hit)};
+    }
+
+    // What it is where sample(u) has drawn `drawn`.
+    template <RealOf<T> R = T>
+    [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface(const Triangle<T>& shape, const glm::vec<2, R>& /*u*/,
+                                                       const LightSample<Direction<R>, R>& drawn) const noexcept {
+        return view_.surface(shape, drawn.value, view_.meet_plane(drawn.value));
     }
 
     [[nodiscard]] LUMIS_HD T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }
@@ -142,6 +173,8 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
 
     LUMIS_INLINE AreaLight(const Parallelogram<T>& shape, const glm::vec<3, T>& reference_point) noexcept
         : AreaLight{detail::FlatShape<Parallelogram<T>>{shape, reference_point}} {}
+    LUMIS_INLINE AreaLight(const Parallelogram<T>& shape, const glm::vec<3, T>& reference_point, Sides sides) noexcept
+        : AreaLight{detail::FlatShape<Parallelogram<T>>{shape, reference_point}.facing(sides)} {}
 
     // u.x goes along the first edge and u.y along the second or, where the shape is split, u.x from the first edge by way
     // of the diagonal to the second, and u.y away from the corner.
@@ -150,7 +183,7 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
         if (!(pdf_ > 0)) return {};
         if (halves_) {
             const Direction<R> w = halves_->sample(u);
-            return detail::seen_at(w, pdf_, view_.distance_along(w));
+            return detail::seen_at(w, pdf_, view_.meet_plane(w).distance);
         }
         const glm::vec<3, R> position = rectangle_.sample(u);
         const R distance = real::length(position);
@@ -170,6 +203,20 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept {
         return detail::distance_or_infinity(view_.intersect(w));
+    }
+
+    // What the surface of the light's shape is where w meets it; for w that misses it the distance is infinite.
+    template <RealOf<T> R = T>
+    [[nodiscard]] LUMIS_HD LightHit<R> hit_along(const Parallelogram<T>& shape, const Direction<R>& w) const noexcept {
+        const SurfaceHit<R> hit = view_.intersect(w);
+        return {detail::distance_or_infinity(hit), view_.surface(shape, w, hit)};
+    }
+
+    // What it is where sample(u) has drawn `drawn`.
+    template <RealOf<T> R = T>
+    [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface(const Parallelogram<T>& shape, const glm::vec<2, R>& /*u*/,
+                                                       const LightSample<Direction<R>, R>& drawn) const noexcept {
+        return view_.surface(shape, drawn.value, view_.meet_plane(drawn.value));
     }
 
     [[nodiscard]] LUMIS_HD T pdf_from_hit(T /*distance*/, T /*cos_light*/) const noexcept { return pdf_; }

@@ -52,7 +52,7 @@ class LightSet {
     using LightSampleType = decltype(std::declval<const Light&>().sample(UniformsOf<Light>{}));
 
     // A light's own kind of sample; its distance is that to the nearest light of the set, which only lights know that are a
-    // LightStrategy.
+    // LightStrategy, and its surface that of the nearest.
     using SampleType = std::conditional_t<detail::DrawsDistance<Light> && !LightStrategy<Light>, Sample<Point, Scalar>,
                                           LightSampleType>;
 
@@ -88,7 +88,9 @@ class LightSet {
             SampleType sample = drawn.sample;
             if (!(sample.pdf > 0)) return sample;
             sample.pdf = density<Scalar>(sample.value, [&](std::size_t i, const Light& light) {
-                if constexpr (detail::DrawsDistance<Light>) {
+                if constexpr (SurfaceStrategy<Light>) {
+                    if (i != drawn.index) detail::keep_nearer(sample, light.hit_along(sample.value));
+                } else if constexpr (detail::DrawsDistance<Light>) {
                     if (i != drawn.index)
                         sample.distance = real::lesser(sample.distance, light.distance_along(sample.value));
                 }
@@ -114,10 +116,12 @@ class LightSet {
         const auto drawn = result.pdf > 0;
         result.pdf = density<R>(result.value, [&](std::size_t i, const Light& light) {
             if constexpr (detail::HasDistance<SampleType>) {
-                const R other = detail::distance_in<R>(light, result.value);
+                const LightHit<R> other = detail::hit_in<R>(light, result.value);
                 for (std::size_t lane = 0; lane < R::size; ++lane) {
-                    if (i != selected[lane] && other[lane] < result.distance[lane])
-                        result.distance.set(lane, other[lane]);
+                    if (i == selected[lane] || !(other.distance[lane] < result.distance[lane])) continue;
+                    result.distance.set(lane, other.distance[lane]);
+                    if constexpr (detail::HasSurface<SampleType>)
+                        detail::put_lane(result.surface, lane, detail::lane_of(other.surface, lane));
                 }
             }
         });
@@ -160,6 +164,16 @@ class LightSet {
         return nearest<typename detail::RealAt<LightSet, X>::type>(w);
     }
 
+    // The same, and what stands there.
+    [[nodiscard]] LUMIS_HD LightHit<Scalar> hit_along(const Point& w) const noexcept requires SurfaceStrategy<Light> {
+        return nearest_hit<Scalar>(w);
+    }
+    template <detail::PointInLanes<LightSet> X>
+        requires SurfaceStrategy<Light>
+    [[nodiscard]] LUMIS_HD auto hit_along(const X& w) const noexcept {
+        return nearest_hit<typename detail::RealAt<LightSet, X>::type>(w);
+    }
+
     // For hosts to which each light is an integral of its own, told apart from what another draws in the same direction:
     // the index of the light selected, and its sample with the density that counts the selection and the distance to this
     // light. In constant time.
@@ -182,6 +196,12 @@ class LightSet {
     [[nodiscard]] LUMIS_HD Scalar pdf_of(std::size_t index, const Point& x) const noexcept {
         return table_.pdf(index) * static_cast<Scalar>(light(index).pdf(x));
     }
+    // The same where the host knows where a ray hit light `index`, see AreaLight::pdf_from_hit.
+    [[nodiscard]] LUMIS_HD Scalar pdf_of_hit(std::size_t index, Scalar distance,
+                                             Scalar cos_light) const noexcept requires requires(const Light& light) {
+        light.pdf_from_hit(distance, cos_light);
+    }
+    { return table_.pdf(index) * light(index).pdf_from_hit(distance, cos_light); }
 
   private:
     LUMIS_HD void require_same_size() const {
@@ -229,6 +249,15 @@ class LightSet {
         R nearest = std::numeric_limits<scalar_of<R>>::infinity();
         for (std::size_t i = 0; i < table_.size(); ++i) {
             if (table_.pdf(i) > 0) nearest = real::lesser(nearest, detail::distance_in<R>(light(i), w));
+        }
+        return nearest;
+    }
+
+    template <Real R, class X>
+    [[nodiscard]] LUMIS_HD LightHit<R> nearest_hit(const X& w) const noexcept {
+        LightHit<R> nearest;
+        for (std::size_t i = 0; i < table_.size(); ++i) {
+            if (table_.pdf(i) > 0) detail::keep_nearer(nearest, detail::hit_in<R>(light(i), w));
         }
         return nearest;
     }

@@ -1,5 +1,5 @@
-// The shapes a light can have, in world space. Flat shapes count from both sides: whether a light emits from its back is
-// the host's business. A sphere seen from outside is hidden behind its own front.
+// The shapes a light can have, in world space, each with a geometric normal and coordinates (u, v) of its points.
+// A sphere seen from outside is hidden behind its own front.
 #pragma once
 
 #include "lumis/core/platform.hpp"
@@ -9,20 +9,26 @@
 
 namespace lumis::LUMIS_ISA {
 
+// From where a light is seen: from both sides of its surface, or only from the one to which the geometric normal points.
+// Behind a light of one side, or inside such a sphere, nothing is drawn and every density is 0.
+enum class Sides { Both, One };
+
+// Normal: along (b - a) x (c - a). Coordinates: barycentric, (u, v) is the point (1 - u - v) a + u b + v c.
 template <Real T = float>
 struct Triangle {
     using Scalar = T;
     glm::vec<3, T> a, b, c;
 };
 
-// The points corner + s edge_u + t edge_v for s, t in [0, 1].
+// The points corner + u edge_u + v edge_v for (u, v) in [0, 1]^2. Normal: along edge_u x edge_v.
 template <Real T = float>
 struct Parallelogram {
     using Scalar = T;
     glm::vec<3, T> corner, edge_u, edge_v;
 };
 
-// normal: of any length.
+// normal: of any length. Coordinates: u is the squared distance from the centre in radii, v a fraction of a turn from the
+// tangent of Frame{unit normal} towards its bitangent; so (u, v) in [0, 1]^2 is even over the area.
 template <Real T = float>
 struct Disk {
     using Scalar = T;
@@ -36,6 +42,8 @@ struct Disk {
         : center{center_}, normal{normal_}, radius(static_cast<T>(radius_)) {}
 };
 
+// Normal: outward. Coordinates: u is (1 - cos(theta)) / 2 with the polar angle theta of the normal from +z, v a fraction of a
+// turn from +x towards +y; so (u, v) in [0, 1]^2 is even over the area.
 template <Real T = float>
 struct Sphere {
     using Scalar = T;

@@ -9,11 +9,14 @@
 //     const lumis::AreaLight light{Ring{...}, point};
 //
 // where a RingView has what SurfaceView names. One with kernels for any Real R, in place of Scalar alone, also serves
-// batches in lanes.
+// batches in lanes. A light of one side is made of seen_from(reference_point, sides), which then has no area from behind;
+// one that tells its surface (see lights/surface_light.hpp) of what TellsSurface names.
 #pragma once
 
 #include "lumis/core/platform.hpp"
 #include "lumis/core/sample.hpp"
+#include "lumis/core/surface_point.hpp"
+#include "lumis/lights/shapes.hpp"
 
 #include <concepts>
 #include <limits>
@@ -46,6 +49,15 @@ concept SurfaceView = Real<R> && requires(const V view, glm::vec<2, R> u, Direct
     { view.intersect(w) } -> std::same_as<SurfaceHit<R>>;
 };
 
+// What the surface is: surface(shape, u) at the point that sample(u) draws, surface(shape, w, hit) at the one where w meets it
+// as intersect says. In world space; the view of its reference point alone need not know where that is.
+template <class V, class S, class R>
+concept TellsSurface = SurfaceView<V, R> &&
+    requires(const V view, const S shape, glm::vec<2, R> u, Direction<R> w, SurfaceHit<R> hit) {
+    { view.surface(shape, u) } -> std::same_as<SurfacePoint<R>>;
+    { view.surface(shape, w, hit) } -> std::same_as<SurfacePoint<R>>;
+};
+
 // A shape may have seen_from as a member, or as a function in its namespace.
 template <class S>
     requires requires(const S& shape, const glm::vec<3, typename S::Scalar>& reference_point) {
@@ -55,6 +67,14 @@ template <class S>
                                                  const glm::vec<3, typename S::Scalar>& reference_point) noexcept {
     return shape.seen_from(reference_point);
 }
+template <class S>
+    requires requires(const S& shape, const glm::vec<3, typename S::Scalar>& reference_point, Sides sides) {
+        shape.seen_from(reference_point, sides);
+    }
+[[nodiscard]] LUMIS_INLINE inline auto seen_from(const S& shape, const glm::vec<3, typename S::Scalar>& reference_point,
+                                                 Sides sides) noexcept {
+    return shape.seen_from(reference_point, sides);
+}
 
 namespace detail {
 
@@ -63,6 +83,11 @@ concept HasScalar = Real<typename S::Scalar>;
 template <class S>
 concept SeenFromPoints = requires(const S& shape, const glm::vec<3, typename S::Scalar>& reference_point) {
     seen_from(shape, reference_point);
+};
+
+template <class S>
+concept SeenFromSides = requires(const S& shape, const glm::vec<3, typename S::Scalar>& reference_point, Sides sides) {
+    seen_from(shape, reference_point, sides);
 };
 
 }  // namespace detail

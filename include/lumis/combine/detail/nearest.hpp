@@ -1,5 +1,5 @@
-// How far away the nearest of several lights is. A light in front of another hides it, whichever of them drew the
-// direction: a shadow ray that stops at the nearest light finds what is really seen there.
+// How far away the nearest of several lights is, and its surface there if lights tell it. A light in front of another hides
+// it, whichever of them drew the direction: a shadow ray that stops at the nearest light finds what is really seen there.
 #pragma once
 
 #include "lumis/combine/detail/parts.hpp"
@@ -9,6 +9,7 @@
 #include "lumis/core/real.hpp"
 #include "lumis/core/sample.hpp"
 #include "lumis/core/strategy.hpp"
+#include "lumis/core/surface_point.hpp"
 
 #include <concepts>
 #include <cstddef>
@@ -22,6 +23,10 @@ namespace lumis::LUMIS_ISA::detail {
 template <class... S>
 concept KnowNearest = (LightStrategy<S> || ...) && ((LightStrategy<S> || DeltaStrategy<S> || !DrawsDistance<S>)&&...);
 
+// And the surface of the nearest, where lights among them tell theirs; that of one which does not is all zeros.
+template <class... S>
+concept KnowSurface = KnowNearest<S...> &&(SurfaceStrategy<S> || ...);
+
 inline constexpr std::size_t no_index = ~std::size_t{};
 
 // The least of `nearest` and the distances to the lights among the strategies along w, except that to number `skipped`.
@@ -31,6 +36,18 @@ template <std::size_t skipped = no_index, std::size_t... I, class... S, class Po
     for_each_index<sizeof...(S)>([&](auto k) {
         if constexpr (k != skipped && LightStrategy<typename NthStrategy<k, S...>::type>) {
             nearest = real::lesser(nearest, distance_in<R>(part<k>(strategies), w));
+        }
+    });
+    return nearest;
+}
+
+// The same with what stands there.
+template <std::size_t skipped = no_index, std::size_t... I, class... S, class Point, Real R>
+[[nodiscard]] LUMIS_HD LightHit<R> nearest_hit(const IndexedParts<std::index_sequence<I...>, S...>& strategies,
+                                               const Point& w, LightHit<R> nearest) noexcept {
+    for_each_index<sizeof...(S)>([&](auto k) {
+        if constexpr (k != skipped && LightStrategy<typename NthStrategy<k, S...>::type>) {
+            keep_nearer(nearest, hit_in<R>(part<k>(strategies), w));
         }
     });
     return nearest;
@@ -62,6 +79,37 @@ template <Real R>
         return sample.distance;
     } else {
         return std::numeric_limits<R>::infinity();
+    }
+}
+
+template <class Drawn, Real R>
+struct WithHit : Drawn {
+    R distance;
+    SurfacePoint<R> surface;
+};
+
+template <class Drawn, Real R>
+[[nodiscard]] LUMIS_HD auto with_hit(const Drawn& sample, const LightHit<R>& hit) noexcept {
+    using Point = decltype(Drawn::value);
+    if constexpr (HasSurface<Drawn>) {
+        Drawn result{sample};
+        result.distance = hit.distance;
+        result.surface = hit.surface;
+        return result;
+    } else if constexpr (std::same_as<Drawn, Sample<Point, R>> || std::same_as<Drawn, LightSample<Point, R>>) {
+        return SurfaceLightSample<Point, R>{sample.value, sample.pdf, hit.distance, hit.surface};
+    } else {
+        return WithHit<Drawn, R>{sample, hit.distance, hit.surface};
+    }
+}
+
+// A drawn sample's own distance and surface.
+template <Real R>
+[[nodiscard]] LUMIS_HD LightHit<R> own_hit(const auto& sample) noexcept {
+    if constexpr (requires { sample.surface; }) {
+        return {sample.distance, sample.surface};
+    } else {
+        return {own_distance<R>(sample), {}};
     }
 }
 

@@ -6,6 +6,7 @@
 #include "lumis/core/real.hpp"
 #include "lumis/core/sample.hpp"
 #include "lumis/core/strategy.hpp"
+#include "lumis/core/surface_point.hpp"
 
 #include <array>
 #include <concepts>
@@ -56,6 +57,10 @@ template <int N, class L, glm::qualifier Q>
     for (int k = 0; k < N; ++k) result[k] = lanes[k][i];
     return result;
 }
+template <class L>
+[[nodiscard]] LUMIS_INLINE inline auto lane_of(const SurfacePoint<L>& lanes, std::size_t i) noexcept {
+    return SurfacePoint<scalar_of<L>>{lane_of(lanes.position, i), lane_of(lanes.normal, i), lane_of(lanes.uv, i)};
+}
 template <class L, class X>
 LUMIS_INLINE inline void put_lane(L& lanes, std::size_t i, const X& x) noexcept {
     if constexpr (Real<L>) {
@@ -68,13 +73,22 @@ template <int N, class L, class T, glm::qualifier Q>
 LUMIS_INLINE inline void put_lane(glm::vec<N, L, Q>& lanes, std::size_t i, const glm::vec<N, T, Q>& x) noexcept {
     for (int k = 0; k < N; ++k) lanes[k].set(i, static_cast<scalar_of<L>>(x[k]));
 }
+template <class L, class T>
+LUMIS_INLINE inline void put_lane(SurfacePoint<L>& lanes, std::size_t i, const SurfacePoint<T>& x) noexcept {
+    put_lane(lanes.position, i, x.position);
+    put_lane(lanes.normal, i, x.normal);
+    put_lane(lanes.uv, i, x.uv);
+}
 
 // One lane of a sample.
 template <class Drawn>
 [[nodiscard]] LUMIS_INLINE inline auto lane_of_sample(const Drawn& drawn, std::size_t i) noexcept {
     using Point = decltype(lane_of(drawn.value, i));
     using T = decltype(lane_of(drawn.pdf, i));
-    if constexpr (HasDistance<Drawn>) {
+    if constexpr (HasSurface<Drawn>) {
+        return SurfaceLightSample<Point, T>{lane_of(drawn.value, i), drawn.pdf[i], drawn.distance[i],
+                                            lane_of(drawn.surface, i)};
+    } else if constexpr (HasDistance<Drawn>) {
         return LightSample<Point, T>{lane_of(drawn.value, i), drawn.pdf[i], drawn.distance[i]};
     } else {
         return Sample<Point, T>{lane_of(drawn.value, i), drawn.pdf[i]};
@@ -127,12 +141,15 @@ template <class S, Real R, class Draw>
 [[nodiscard]] LUMIS_HD auto draw_each_lane(const glm::vec<S::dimensions, R>& u, Draw draw) {
     using First = decltype(draw(lane_of(u, 0)));
     constexpr bool has_distance = HasDistance<First>;
-    std::conditional_t<has_distance, LightSample<PointOf<S, R>, R>, Sample<PointOf<S, R>, R>> result;
+    using Lights =
+        std::conditional_t<HasSurface<First>, SurfaceLightSample<PointOf<S, R>, R>, LightSample<PointOf<S, R>, R>>;
+    std::conditional_t<has_distance, Lights, Sample<PointOf<S, R>, R>> result;
     for (std::size_t i = 0; i < R::size; ++i) {
         const auto drawn = draw(lane_of(u, i));
         put_lane(result.value, i, typename S::Point(drawn.value));
         put_lane(result.pdf, i, drawn.pdf);
         if constexpr (has_distance) put_lane(result.distance, i, drawn.distance);
+        if constexpr (HasSurface<First>) put_lane(result.surface, i, drawn.surface);
     }
     return result;
 }
@@ -177,6 +194,26 @@ template <Real R, class S>
         return strategy.distance_along(w);
     } else {
         return each_lane<R>(distance, w);
+    }
+}
+
+// What of a light stands along w: the hit of one that tells its surface, else the distance alone.
+template <Real R, class S>
+[[nodiscard]] LUMIS_INLINE inline LightHit<R> hit_in(const S& light, const PointOf<S, R>& w) {
+    if constexpr (!SurfaceStrategy<S>) {
+        return {distance_in<R>(light, w), {}};
+    } else if constexpr (requires {
+                             { light.hit_along(w) } -> std::same_as<LightHit<R>>;
+                         }) {
+        return light.hit_along(w);
+    } else {
+        LightHit<R> result;
+        for (std::size_t i = 0; i < R::size; ++i) {
+            const auto hit = light.hit_along(lane_of(w, i));
+            put_lane(result.distance, i, hit.distance);
+            put_lane(result.surface, i, hit.surface);
+        }
+        return result;
     }
 }
 

@@ -1,4 +1,4 @@
-// A disk as seen from a reference point: points on it evenly by area, and rays that meet it.
+// A disk as seen from a reference point: points on it evenly by area, rays that meet it, and what the surface is there.
 #pragma once
 
 #include "lumis/core/frame.hpp"
@@ -31,6 +31,13 @@ class DiskView {
         }
         height_ = glm::dot(center_, frame_.normal());
     }
+    LUMIS_HD DiskView(const Disk<T>& disk, const glm::vec<3, T>& reference_point, Sides sides) noexcept
+        : DiskView{disk, reference_point} {
+        if (sides == Sides::Both) return;
+        const auto behind = height_ > 0;
+        radius_ = real::select(behind, T(0), radius_);
+        height_ = real::select(behind, T(0), height_);
+    }
 
     [[nodiscard]] LUMIS_HD T area() const noexcept { return std::numbers::pi_v<scalar_of<T>> * radius_ * radius_; }
 
@@ -42,6 +49,28 @@ class DiskView {
         const auto circle = unit_circle(u.y);
         const Vector across = circle.x * Vector(frame_.tangent()) + circle.y * Vector(frame_.bitangent());
         return {Vector(center_) + distance * across, height_};
+    }
+
+    // Of the point that sample draws.
+    template <RealOf<T> R = T>
+    [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface(const Disk<T>& disk, const glm::vec<2, R>& u) const noexcept {
+        const auto circle = unit_circle(u.y);
+        return {position_at(disk, R(radius_ * real::sqrt(u.x)) * circle), Direction<R>(frame_.normal()), u};
+    }
+
+    // Of the point at which a unit vector w meets the disk as `met` says; of the rim's nearest where rounding has put w beside
+    // it.
+    template <Real R>
+    [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface(const Disk<T>& disk, const Direction<R>& w,
+                                                       const SurfaceHit<R>& met) const noexcept {
+        using Vector = glm::vec<3, R>;
+        const Vector across = real::rounded(met.distance * w - Vector(center_));
+        const R x = glm::dot(across, Vector(frame_.tangent())), y = glm::dot(across, Vector(frame_.bitangent()));
+        const R reach = real::sqrt(R(x * x + y * y)), radius = radius_;
+        const R inward = real::select(reach > radius, real::quotient_where(reach > radius, radius, reach), 1);
+        const R share = real::quotient_where(MaskOf<R>(radius > 0), real::lesser(reach, radius), radius);
+        return {position_at(disk, inward * glm::vec<2, R>{x, y}), Direction<R>(frame_.normal()),
+                glm::vec<2, R>{share * share, turn_of(x, y)}};
     }
 
     // w: unit. The rim gives way by the rounding of w, so that a direction drawn to it meets the disk.
@@ -65,6 +94,13 @@ class DiskView {
     }
 
   private:
+    template <Real R>
+    [[nodiscard]] LUMIS_INLINE glm::vec<3, R> position_at(const Disk<T>& disk,
+                                                          const glm::vec<2, R>& across) const noexcept {
+        using Vector = glm::vec<3, R>;
+        return Vector(disk.center) + (across.x * Vector(frame_.tangent()) + across.y * Vector(frame_.bitangent()));
+    }
+
     glm::vec<3, T> center_;  // relative to the reference point
     T radius_{0};
     Frame<T> frame_{Direction<T>{T(0), T(0), T(1)}};
@@ -75,9 +111,10 @@ class DiskView {
 
 namespace lumis::LUMIS_ISA {
 
-template <Real T>
-[[nodiscard]] LUMIS_HD auto seen_from(const Disk<T>& shape, const glm::vec<3, T>& reference_point) noexcept {
-    return detail::DiskView<T>{shape, reference_point};
+template <Real T, std::same_as<Sides>... S>
+[[nodiscard]] LUMIS_HD auto seen_from(const Disk<T>& shape, const glm::vec<3, T>& reference_point,
+                                      S... sides) noexcept {
+    return detail::DiskView<T>{shape, reference_point, sides...};
 }
 
 }  // namespace lumis::LUMIS_ISA

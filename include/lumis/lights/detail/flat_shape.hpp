@@ -81,6 +81,18 @@ struct FlatShape {
         LUMIS_ASSERT(real::all(!is_nan(shape) && !is_nan(reference_point)));
     }
 
+    // The same seen from one side: without edges from behind, whence it draws nothing.
+    [[nodiscard]] LUMIS_INLINE FlatShape facing(Sides sides) const noexcept {
+        if (sides == Sides::Both) return *this;
+        const auto& [corner, u, v] = in_units;
+        const auto behind = glm::dot(corner, cross(u, v)) > 0;
+        const auto hidden = [&](const Vector& edge) { return real::select(behind, Vector{Wide(0)}, edge); };
+        FlatShape seen{*this};
+        seen.in_scene = {in_scene.corner, hidden(in_scene.edge_u), hidden(in_scene.edge_v)};
+        seen.in_units = {corner, hidden(u), hidden(v)};
+        return seen;
+    }
+
   private:
     LUMIS_INLINE FlatShape(const Vector& corner, const Vector& u, const Vector& v) noexcept
         : in_scene{corner, u, v}, in_units{in_scene} {

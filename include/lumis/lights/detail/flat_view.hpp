@@ -1,4 +1,5 @@
-// A triangle or parallelogram as seen from a reference point: points on it evenly by area, and rays that meet it.
+// A triangle or parallelogram as seen from a reference point: points on it evenly by area, rays that meet it, and what the
+// surface is there.
 #pragma once
 
 #include "lumis/core/platform.hpp"
@@ -9,9 +10,36 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <concepts>
 #include <limits>
 
 namespace lumis::LUMIS_ISA::detail {
+
+// The coordinates of the shape's points, evenly by area for u in [0,1]^2: of triangles by the square-root map (Turk 1990),
+// which folds nothing and so keeps strata together.
+template <class Shape, Real R>
+[[nodiscard]] LUMIS_INLINE inline glm::vec<2, R> flat_coordinates(const glm::vec<2, R>& u) noexcept {
+    if constexpr (FlatShape<Shape>::is_triangle) {
+        const R root = real::sqrt(u.x);
+        return {root * (1 - u.y), root * u.y};
+    } else {
+        return u;
+    }
+}
+
+// The point at coordinates, in world space.
+template <Real R, class T>
+[[nodiscard]] LUMIS_INLINE inline glm::vec<3, R> position_at(const Triangle<T>& shape,
+                                                             const glm::vec<2, R>& uv) noexcept {
+    using Vector = glm::vec<3, R>;
+    return Vector(shape.a) + (uv.x * Vector(shape.b - shape.a) + uv.y * Vector(shape.c - shape.a));
+}
+template <Real R, class T>
+[[nodiscard]] LUMIS_INLINE inline glm::vec<3, R> position_at(const Parallelogram<T>& shape,
+                                                             const glm::vec<2, R>& uv) noexcept {
+    using Vector = glm::vec<3, R>;
+    return Vector(shape.corner) + (uv.x * Vector(shape.edge_u) + uv.y * Vector(shape.edge_v));
+}
 
 template <class Shape>
 class FlatView {
@@ -21,6 +49,8 @@ class FlatView {
   public:
     LUMIS_INLINE FlatView(const Shape& shape, const glm::vec<3, T>& reference_point) noexcept
         : FlatView{FlatShape<Shape>{shape, reference_point}} {}
+    LUMIS_INLINE FlatView(const Shape& shape, const glm::vec<3, T>& reference_point, Sides sides) noexcept
+        : FlatView{FlatShape<Shape>{shape, reference_point}.facing(sides)} {}
 
     LUMIS_INLINE explicit FlatView(const FlatShape<Shape>& shape) noexcept
         : corner_{shape.in_scene.corner}, edge_u_{shape.in_scene.edge_u}, edge_v_{shape.in_scene.edge_v} {
@@ -41,24 +71,37 @@ class FlatView {
 
     [[nodiscard]] LUMIS_HD T area() const noexcept { return area_; }
 
-    // u in [0,1]^2. Triangles by the square-root map (Turk 1990), which folds nothing and so keeps strata together.
+    // u in [0,1]^2.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_INLINE SurfaceSample<R> sample(glm::vec<2, R> u) const noexcept {
-        R s = u.x, t = u.y;
-        if constexpr (is_triangle) {
-            const R root = real::sqrt(u.x);
-            s = root * (1 - u.y);
-            t = root * u.y;
-        }
+        const glm::vec<2, R> at = flat_coordinates<Shape>(u);
         using Vector = glm::vec<3, R>;
-        return {Vector(corner_) + s * Vector(edge_u_) + t * Vector(edge_v_), height_};
+        return {Vector(corner_) + at.x * Vector(edge_u_) + at.y * Vector(edge_v_), height_};
     }
 
-    // To the plane; 0 parallel to it.
+    // Of the point that sample draws.
     template <RealOf<T> R = T>
-    [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface(const Shape& shape, const glm::vec<2, R>& u) const noexcept {
+        return surface_at(shape, flat_coordinates<Shape>(u));
+    }
+
+    // Of the point at which a unit vector w meets the plane as `met` says; of the shape's nearest where rounding has put w
+    // beside it.
+    template <Real R>
+    [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface(const Shape& shape, const Direction<R>& w,
+                                                       const SurfaceHit<R>& met) const noexcept {
+        const auto meets = real::abs(met.cos_light) > 0;
+        const R u = real::quotient_where(meets, R(glm::dot(w, Direction<R>(across_u_))), met.cos_light);
+        const R v = real::quotient_where(meets, R(glm::dot(w, Direction<R>(across_v_))), met.cos_light);
+        const R s = real::clamp(u, 0, 1), most = is_triangle ? R(1 - s) : R(scalar_of<R>(1));
+        return surface_at(shape, glm::vec<2, R>{s, real::clamp(v, 0, most)});
+    }
+
+    // Where w meets the plane; distance 0 parallel to it.
+    template <RealOf<T> R = T>
+    [[nodiscard]] LUMIS_HD SurfaceHit<R> meet_plane(const Direction<R>& w) const noexcept {
         const R cos_light = glm::dot(w, Direction<R>(normal_));
-        return real::quotient_where(real::abs(cos_light) > 0, R(height_), cos_light);
+        return {real::quotient_where(real::abs(cos_light) > 0, R(height_), cos_light), cos_light};
     }
 
     // The u that sample maps to the point that w meets.
@@ -78,8 +121,7 @@ class FlatView {
     // edges give way by the rounding of w, so that a direction drawn to a point on an edge meets it.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
-        const R cos_light = glm::dot(w, Direction<R>(normal_));
-        const R distance = real::quotient_where(real::abs(cos_light) > 0, R(height_), cos_light);
+        const auto [distance, cos_light] = meet_plane(w);
         const R reach = real::abs(cos_light), sign = real::copysign(R(scalar_of<R>(1)), cos_light);
         const R s = sign * glm::dot(w, Direction<R>(across_u_)), t = sign * glm::dot(w, Direction<R>(across_v_));
         const auto below_far_edges = is_triangle ? s + t <= reach + (rounding_u_ + rounding_v_)
@@ -88,6 +130,11 @@ class FlatView {
     }
 
   private:
+    template <Real R>
+    [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface_at(const Shape& shape, const glm::vec<2, R>& uv) const noexcept {
+        return {position_at(shape, uv), Direction<R>(normal_), uv};
+    }
+
     glm::vec<3, T> corner_, edge_u_, edge_v_;  // relative to the reference point
     glm::vec<3, T> across_u_, across_v_;       // a ray's s and t are its products with these over its cosine
     Direction<T> normal_;
@@ -100,15 +147,15 @@ class FlatView {
 
 namespace lumis::LUMIS_ISA {
 
-template <Real T>
-[[nodiscard]] LUMIS_INLINE inline auto seen_from(const Triangle<T>& shape,
-                                                 const glm::vec<3, T>& reference_point) noexcept {
-    return detail::FlatView<Triangle<T>>{shape, reference_point};
+template <Real T, std::same_as<Sides>... S>
+[[nodiscard]] LUMIS_INLINE inline auto seen_from(const Triangle<T>& shape, const glm::vec<3, T>& reference_point,
+                                                 S... sides) noexcept {
+    return detail::FlatView<Triangle<T>>{shape, reference_point, sides...};
 }
-template <Real T>
-[[nodiscard]] LUMIS_INLINE inline auto seen_from(const Parallelogram<T>& shape,
-                                                 const glm::vec<3, T>& reference_point) noexcept {
-    return detail::FlatView<Parallelogram<T>>{shape, reference_point};
+template <Real T, std::same_as<Sides>... S>
+[[nodiscard]] LUMIS_INLINE inline auto seen_from(const Parallelogram<T>& shape, const glm::vec<3, T>& reference_point,
+                                                 S... sides) noexcept {
+    return detail::FlatView<Parallelogram<T>>{shape, reference_point, sides...};
 }
 
 }  // namespace lumis::LUMIS_ISA

@@ -1,5 +1,5 @@
-// A sphere as seen from a reference point: points on it evenly by area, directions towards it evenly by solid angle, and
-// rays that meet it. From outside only its front counts; from inside all of it.
+// A sphere as seen from a reference point: points on it evenly by area, directions towards it evenly by solid angle, rays
+// that meet it, and what the surface is there. From outside only its front counts; from inside all of it.
 #pragma once
 
 #include "lumis/core/frame.hpp"
@@ -23,7 +23,8 @@ class SphereView {
   public:
     // A sphere whose radius is not positive, or a number out of range, subtends nothing; nor does one from its own surface,
     // to which the distance is 0.
-    LUMIS_INLINE SphereView(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point) noexcept
+    LUMIS_INLINE SphereView(const Sphere<T>& sphere, const glm::vec<3, T>& reference_point,
+                            Sides sides = Sides::Both) noexcept
         : center_{real::rounded(sphere.center - reference_point)},
           radius_{sphere.radius},
           axis_{Direction<T>{T(0), T(0), T(1)}} {
@@ -52,6 +53,12 @@ class SphereView {
             versine_ = real::select(seen, versine_, 0);
             radius_ = real::select(seen, radius_, 0);
         }
+        if (sides == Sides::One) {
+            versine_ = real::select(inside_, T(0), versine_);
+            radius_ = real::select(inside_, T(0), radius_);
+            chord_ = real::select(inside_, T(-1), chord_);
+            inside_ = MaskOf<T>(false);
+        }
     }
 
     [[nodiscard]] LUMIS_HD T area() const noexcept { return 4 * std::numbers::pi_v<scalar_of<T>> * radius_ * radius_; }
@@ -66,6 +73,31 @@ class SphereView {
         drawn.cos_times_distance = real::either(
             inside_, [&] { return towards; }, [&] { return real::greater(towards, 0); });
         return drawn;
+    }
+
+    // Of the point that sample draws.
+    template <RealOf<T> R = T>
+    [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface(const Sphere<T>& sphere,
+                                                       const glm::vec<2, R>& u) const noexcept {
+        return surface_at(sphere, direction_at(R(2 * u.x), u.y), u);
+    }
+
+    // Of the point that direction draws. The normal keeps its digits, which w lacks where the sphere is small and far away.
+    template <RealOf<T> R = T>
+    [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface_of_direction(const Sphere<T>& sphere,
+                                                                    const glm::vec<2, R>& u) const noexcept {
+        const R versine = u.x * versine_;
+        return surface_around_axis(sphere, sine_of_versine(versine), R(1 - versine), unit_circle(u.y));
+    }
+
+    // Of the point in the direction of a unit vector w.
+    template <Real R>
+    [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface(const Sphere<T>& sphere, const Direction<R>& w,
+                                                       const SurfaceHit<R>&) const noexcept {
+        const Direction<R> local = axis_.to_local(w);
+        const R sine = real::sqrt(R(local.x * local.x + local.y * local.y));
+        const R inverse = real::quotient_where(sine > 0, R(scalar_of<R>(1)), sine);
+        return surface_around_axis(sphere, sine, local.z, glm::vec<2, R>{local.x * inverse, local.y * inverse});
     }
 
     template <Real R>
@@ -109,6 +141,29 @@ class SphereView {
     }
 
   private:
+    // Of the point in a direction at a polar angle from the axis, and at a turn around it given as (cos, sin).
+    //
+    //            P        With the angle theta at the reference point O and gamma at P, the normal at P is gamma - theta away
+    //     O ------- C     from CO, or from inside gamma + theta from OC. The distance from C to the line OP is r sin(gamma).
+    template <Real R>
+    [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface_around_axis(const Sphere<T>& sphere, R sine, R cosine,
+                                                                   const glm::vec<2, R>& turn) const noexcept {
+        const R across = real::lesser(R(distance_ * sine), radius_), radius = radius_;
+        const auto is_sphere = radius > 0;
+        const R sin_gamma = real::quotient_where(is_sphere, across, radius);
+        const R half_chord = real::quotient_where(is_sphere, half_chord_at(across), radius);
+        const R cos_gamma = real::select(MaskOf<R>(inside_), half_chord, R(-half_chord));
+        const R away = sin_gamma * cosine + cos_gamma * sine, along = cos_gamma * cosine - sin_gamma * sine;
+        const Direction<R> normal = axis_.to_world(Direction<R>{away * turn.x, away * turn.y, along});
+        return surface_at(sphere, normal, glm::vec<2, R>{versine_of(normal) / 2, turn_of(normal.x, normal.y)});
+    }
+
+    template <Real R>
+    [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface_at(const Sphere<T>& sphere, const Direction<R>& normal,
+                                                          const glm::vec<2, R>& uv) const noexcept {
+        return {glm::vec<3, R>(sphere.center) + R(radius_) * normal, normal, uv};
+    }
+
     // Half the length of the chord that a line cuts out of the sphere when it passes its centre at a distance `across`.
     template <Real R>
     [[nodiscard]] LUMIS_HD R half_chord_at(R across) const noexcept {
@@ -140,9 +195,9 @@ class SphereView {
 namespace lumis::LUMIS_ISA {
 
 template <Real T>
-[[nodiscard]] LUMIS_INLINE inline auto seen_from(const Sphere<T>& shape,
-                                                 const glm::vec<3, T>& reference_point) noexcept {
-    return detail::SphereView<T>{shape, reference_point};
+[[nodiscard]] LUMIS_INLINE inline auto seen_from(const Sphere<T>& shape, const glm::vec<3, T>& reference_point,
+                                                 Sides sides = Sides::Both) noexcept {
+    return detail::SphereView<T>{shape, reference_point, sides};
 }
 
 }  // namespace lumis::LUMIS_ISA
