@@ -149,8 +149,8 @@ class AreaLight<Triangle<T>, BySolidAngle> {
   private:
     LUMIS_INLINE explicit AreaLight(const detail::FlatShape<Triangle<T>>& shape) noexcept
         : view_{shape},
-          seen_{shape.in_units.corner, shape.in_units.corner + shape.in_units.edge_u,
-                shape.in_units.corner + shape.in_units.edge_v, shape.in_units.edge_u, shape.in_units.edge_v},
+          seen_{shape.in_units().corner, shape.in_units().corner + shape.in_units().edge_u,
+                shape.in_units().corner + shape.in_units().edge_v, shape.in_units().edge_u, shape.in_units().edge_v},
           pdf_{detail::uniform_density(seen_.solid_angle())} {}
 
     detail::FlatView<Triangle<T>> view_;
@@ -182,7 +182,8 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     [[nodiscard]] LUMIS_INLINE LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         if (!(pdf_ > 0)) return {};
         if (halves_) {
-            const Direction<R> w = halves_->sample(u);
+            const Halves halves{*halves_};  // see split
+            const Direction<R> w = halves.sample(u);
             return detail::seen_at(w, pdf_, view_.meet_plane(w).distance);
         }
         const glm::vec<3, R> position = rectangle_.sample(u);
@@ -226,27 +227,33 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
   private:
     using Shape = detail::FlatShape<Parallelogram<T>>;
     using Vector = typename Shape::Vector;
+    class Halves;
 
     LUMIS_INLINE explicit AreaLight(const Shape& shape) noexcept
         : view_{shape},
-          rectangle_{shape.in_units.corner, shape.in_units.edge_u, shape.in_units.edge_v},
+          rectangle_{shape.in_units().corner, shape.in_units().edge_u, shape.in_units().edge_v},
           solid_angle_{rectangle_.solid_angle()},
           unit_{static_cast<T>(shape.unit) * rectangle_.unit()} {
         if (!(rectangle_.has_digits() && is_rectangle(shape))) {
-            halves_.emplace(shape);
+            halves_ = split(Shape{shape});
             solid_angle_ = halves_->solid_angle();
         }
         pdf_ = detail::uniform_density(solid_angle_);
     }
 
+    // Called with copies: of a light to whose parts a call refers, compilers keep all parts in memory.
+    [[nodiscard]] LUMIS_NOINLINE static std::optional<Halves> split(const Shape& shape) noexcept {
+        return Halves{shape};
+    }
+
     // Whether the edges are at right angles; up to the rounding of T, unless the reference point is so close by that such a
     // shear shows.
     [[nodiscard]] LUMIS_HD static bool is_rectangle(const Shape& shape) noexcept {
-        const auto dot = glm::dot(shape.in_units.edge_u, shape.in_units.edge_v);
+        const auto dot = glm::dot(shape.in_units().edge_u, shape.in_units().edge_v);
         if (dot == 0) return true;
-        const auto u = real::length(shape.in_units.edge_u), v = real::length(shape.in_units.edge_v);
+        const auto u = real::length(shape.in_units().edge_u), v = real::length(shape.in_units().edge_v);
         const auto volume =
-            glm::dot(shape.in_units.corner, detail::cross(shape.in_units.edge_u, shape.in_units.edge_v));
+            glm::dot(shape.in_units().corner, detail::cross(shape.in_units().edge_u, shape.in_units().edge_v));
         return std::abs(dot) <= 4 * std::numeric_limits<T>::epsilon() * u * v &&
                32 * std::abs(volume) >= u * v * real::greater(u, v);
     }
@@ -255,8 +262,8 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     class Halves {
       public:
         LUMIS_INLINE explicit Halves(const Shape& shape) noexcept
-            : Halves{shape.in_units.corner, shape.in_units.edge_u, shape.in_units.edge_v,
-                     shape.in_units.edge_u + shape.in_units.edge_v} {}
+            : Halves{shape.in_units().corner, shape.in_units().edge_u, shape.in_units().edge_v,
+                     shape.in_units().edge_u + shape.in_units().edge_v} {}
 
         // 0 if the reference point lies at a vertex or in the plane.
         [[nodiscard]] LUMIS_HD T solid_angle() const noexcept {

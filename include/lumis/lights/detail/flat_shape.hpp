@@ -46,10 +46,9 @@ template <Real T>
 // line they are 0.
 template <Real T>
 [[nodiscard]] LUMIS_INLINE inline glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) noexcept {
-    const auto component = [&](int i, int k) {
-        return real::rounded(T(real::product(a[i], b[k]) - real::product(a[k], b[i])));
-    };
-    return {component(1, 2), component(2, 0), component(0, 1)};
+    return {real::rounded(T(real::product(a.y, b.z) - real::product(a.z, b.y))),
+            real::rounded(T(real::product(a.z, b.x) - real::product(a.x, b.z))),
+            real::rounded(T(real::product(a.x, b.y) - real::product(a.y, b.x)))};
 }
 
 // Vertices are taken relative to the reference point before anything else, and edges before that, so that a scene far from
@@ -59,16 +58,26 @@ struct FlatShape {
     using Scalar = typename Shape::Scalar;
     using Wide = detail::Wide<Scalar>;
     using Vector = glm::vec<3, Wide>;
+    static constexpr bool has_unit = std::same_as<Wide, Scalar>;
     static constexpr bool is_triangle = std::same_as<Shape, Triangle<Scalar>>;
 
     struct Edges {
         Vector corner, edge_u, edge_v;
     };
 
-    // The scene's coordinates; and in a unit near the longest edge where Scalar is double, as squares of tiny or huge edges
-    // would leave its range. The unit is a power of two, which rounds nothing.
-    Edges in_scene, in_units;
+    // The scene's coordinates.
+    Edges in_scene;
     Wide unit{1};
+
+    // In a unit near the longest edge where Scalar is double, as squares of tiny or huge edges would leave its range. The
+    // unit is a power of two, which rounds nothing.
+    [[nodiscard]] LUMIS_INLINE const Edges& in_units() const noexcept {
+        if constexpr (has_unit) {
+            return scaled_;
+        } else {
+            return in_scene;
+        }
+    }
 
     LUMIS_INLINE FlatShape(const Shape& shape, const glm::vec<3, Scalar>& reference_point) noexcept requires is_triangle
         : FlatShape{difference(shape.a, reference_point), difference(shape.b, shape.a), difference(shape.c, shape.a)} {
@@ -84,31 +93,36 @@ struct FlatShape {
     // The same seen from one side: without edges from behind, whence it draws nothing.
     [[nodiscard]] LUMIS_INLINE FlatShape facing(Sides sides) const noexcept {
         if (sides == Sides::Both) return *this;
-        const auto& [corner, u, v] = in_units;
+        const auto& [corner, u, v] = in_units();
         const auto behind = glm::dot(corner, cross(u, v)) > 0;
-        const auto hidden = [&](const Vector& edge) { return real::select(behind, Vector{Wide(0)}, edge); };
+        const auto hide = [&](Edges& edges) {
+            edges.edge_u = real::select(behind, Vector{Wide(0)}, edges.edge_u);
+            edges.edge_v = real::select(behind, Vector{Wide(0)}, edges.edge_v);
+        };
         FlatShape seen{*this};
-        seen.in_scene = {in_scene.corner, hidden(in_scene.edge_u), hidden(in_scene.edge_v)};
-        seen.in_units = {corner, hidden(u), hidden(v)};
+        hide(seen.in_scene);
+        if constexpr (has_unit) hide(seen.scaled_);
         return seen;
     }
 
   private:
-    LUMIS_INLINE FlatShape(const Vector& corner, const Vector& u, const Vector& v) noexcept
-        : in_scene{corner, u, v}, in_units{in_scene} {
-        if constexpr (std::same_as<Wide, Scalar>) {
+    LUMIS_INLINE FlatShape(const Vector& corner, const Vector& u, const Vector& v) noexcept : in_scene{corner, u, v} {
+        if constexpr (has_unit) {
             // Not so small that the square of the corner would leave its range: then the shape subtends nothing.
             const Wide least = longest_component(corner) * scalar_of<Wide>(0x1p-500);
             const Wide longest = real::greater(longest_component(u), longest_component(v));
             unit = power_of_two(real::greater(longest, least));
             const Wide inverse = 1 / unit;
-            in_units = {corner * inverse, u * inverse, v * inverse};
+            scaled_ = {corner * inverse, u * inverse, v * inverse};
         }
     }
 
     LUMIS_HD static Vector difference(const glm::vec<3, Scalar>& to, const glm::vec<3, Scalar>& from) noexcept {
         return real::rounded(Vector(to) - Vector(from));
     }
+
+    struct None {};
+    [[no_unique_address]] std::conditional_t<has_unit, Edges, None> scaled_;
 };
 
 }  // namespace lumis::LUMIS_ISA::detail

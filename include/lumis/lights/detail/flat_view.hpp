@@ -56,7 +56,7 @@ class FlatView {
         : corner_{shape.in_scene.corner}, edge_u_{shape.in_scene.edge_u}, edge_v_{shape.in_scene.edge_v} {
         using Wide = typename FlatShape<Shape>::Wide;
         constexpr auto rounding = 4 * std::numeric_limits<T>::epsilon();
-        const auto& [start, u, v] = shape.in_units;
+        const auto& [start, u, v] = shape.in_units();
         const auto normal = cross(u, v);
         const Wide area = real::length(normal);  // of the parallelogram of the edges
         const Wide inverse = real::quotient_where(area > 0, Wide(1), area);
