@@ -30,6 +30,7 @@
 #include "lumis/lights/directional_light.hpp"
 #include "lumis/lights/environment_map.hpp"
 #include "lumis/lights/light_set.hpp"
+#include "lumis/lights/pdf_from_hit.hpp"
 #include "lumis/lights/point_light.hpp"
 #include "lumis/lights/surface_light.hpp"
 #include "lumis/microfacets/ggx.hpp"
