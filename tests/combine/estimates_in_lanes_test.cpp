@@ -100,7 +100,7 @@ struct Same {
 // A spectrum of a host, of numbers or lanes.
 template <class R>
 struct Spectrum {
-    R a{}, b{};
+    R a, b;
     friend Spectrum operator*(const Spectrum& s, R x) { return {s.a * x, s.b * x}; }
     friend Spectrum operator+(const Spectrum& s, const Spectrum& t) { return {s.a + t.a, s.b + t.b}; }
     friend Spectrum select(const lumis::MaskOf<R>& where, const Spectrum& s, const Spectrum& t) {

@@ -153,7 +153,7 @@ namespace {
 
 // A value of a host's own: what the documentation asks for and nothing more.
 struct Spectrum {
-    std::array<float, 2> bands{};
+    std::array<float, 2> bands;
     friend Spectrum operator+(const Spectrum& a, const Spectrum& b) {
         return {{a.bands[0] + b.bands[0], a.bands[1] + b.bands[1]}};
     }

@@ -21,17 +21,48 @@ struct PerArea : UniformHemisphere<float> {
 };
 
 // As Eigen has them: a product is an expression that refers to what it is made of.
+struct Product;
 struct Vector {
     float x, y, z;
+    Vector(float all) : x{all}, y{all}, z{all} {}
+    Vector(const Product& product);
 };
 struct Product {
-    explicit Product(const Vector& a, float b) : vector{a}, scale{b} {}
     const Vector& vector;
     float scale;
 };
+inline Vector::Vector(const Product& p) : x{p.vector.x * p.scale}, y{p.vector.y * p.scale}, z{p.vector.z * p.scale} {}
 [[maybe_unused]] Product operator*(const Vector& a, float b) {
-    return Product{a, b};
+    return {a, b};
 }
+[[maybe_unused]] Vector operator+(const Vector& a, const Vector&) {
+    return a;
+}
+const Vector white{1};
+
+// What its default constructor sets is the host's business.
+struct Spectrum {
+    float bands[4];
+    Spectrum() {}
+    explicit Spectrum(float all) : bands{all, all, all, all} {}
+    friend Spectrum operator+(const Spectrum& a, const Spectrum&) { return a; }
+    friend Spectrum operator*(const Spectrum& a, float) { return a; }
+};
+
+}  // namespace
+
+template <>
+struct lumis::zero<Vector> {
+    static Vector value() { return {0}; }
+};
+#ifndef ZERO_NOT_TOLD  // says: an integrand's value has a zero, but its default constructor may set none
+template <>
+struct lumis::zero<Spectrum> {
+    static Spectrum value() { return Spectrum{0}; }
+};
+#endif
+
+namespace {
 
 [[maybe_unused]] void heuristics() {
 #ifdef FORGOTTEN_HEURISTIC  // says: the_first_argument_must_be_a_heuristic
@@ -122,18 +153,19 @@ struct Product {
     const auto nothing = [](const glm::vec3&) { return 0; };
 #endif
     (void)direct.estimate(nothing, uniforms);
-#ifdef DOUBLE_COLOUR  // says: an integrand's value scales by the strategies' Scalar
-    const auto colour = [](const glm::vec3& w) { return glm::dvec3{w}; };
+#ifdef WHOLE_NUMBERS_FOR_A_COLOUR  // says: an integrand's value, times a number, is one of the same type
+    const auto colour = [](const glm::vec3&) { return glm::ivec3{1, 2, 3}; };
 #else
-    const auto colour = [](const glm::vec3& w) { return w; };
+    const auto colour = [](const glm::vec3& w) { return glm::dvec3{w}; };
 #endif
     (void)direct.estimate(colour, uniforms);
-#ifdef EXPRESSION  // says: an integrand's value, scaled, adds to itself and has a zero
-    const auto expression = [](const glm::vec3&) { return Vector{1, 2, 3}; };
+#ifdef EXPRESSION  // says: one that returns an expression template says what value it stands for
+    const auto expression = [](const glm::vec3& w) { return white * w.z; };
 #else
-    const auto expression = [](const glm::vec3&) { return glm::vec3{1, 2, 3}; };
+    const auto expression = [](const glm::vec3& w) -> Vector { return white * w.z; };
 #endif
     (void)direct.estimate(expression, uniforms);
+    (void)direct.estimate([](const glm::vec3&) { return Spectrum{1}; }, uniforms);
 #ifdef OTHER_POINT  // says: an integrand takes the point, .* or the whole sample
     const auto two_coordinates = [](float, float) { return 1.0f; };
 #else

@@ -8,6 +8,7 @@
 #include "lumis/combine/heuristics.hpp"
 #include "lumis/combine/integrand.hpp"
 #include "lumis/combine/technique.hpp"
+#include "lumis/combine/zero.hpp"
 #include "lumis/core/detail/for_each_index.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/core/strategy.hpp"
@@ -27,16 +28,6 @@ namespace detail {
 template <class S, Real R, class U>
 [[nodiscard]] LUMIS_INLINE constexpr glm::vec<S::dimensions, R> next_for(U& uniforms) {
     return glm::vec<S::dimensions, R>(uniforms.template next<S::dimensions>());
-}
-
-// The value over a divisor. A number is divided, which rounds once; other values need only scale.
-template <class Value, Real R>
-[[nodiscard]] LUMIS_HD constexpr auto quotient(const Value& value, R divisor) {
-    if constexpr (std::same_as<Value, R>) {
-        return value / divisor;
-    } else {
-        return value * R(1 / divisor);
-    }
 }
 
 // A divisor that is positive where the condition holds. A number's condition does.
@@ -177,23 +168,24 @@ class Combination {
             const R own = factors_[I] * sample.pdf;
             auto drawn = own > 0;
             if constexpr (!std::floating_point<R>) drawn = drawn && selected;
-            using Value = std::remove_cvref_t<
-                decltype(detail::evaluate_in<is_delta<I>, R>(f, seen<I, only_point, R>(sample), drawn) * own)>;
-            if (!real::any(drawn)) return Value{};
+            using Value = ValueOf<std::remove_cvref_t<decltype(detail::evaluate_in<is_delta<I>, R>(
+                                      f, seen<I, only_point, R>(sample), drawn))>,
+                                  R>;
+            if (!real::any(drawn)) return zero<Value>::value();
             const R divisor = detail::positive_divisor(drawn, own);
             if constexpr (is_delta<I> || number_of_smooth == 1) {
                 const auto& whole = seen<I, only_point, R>(sample);
-                return detail::selected(
-                    drawn, Value(detail::quotient(detail::evaluate_in<is_delta<I>, R>(f, whole, drawn), divisor)));
+                decltype(auto) result = detail::evaluate_in<is_delta<I>, R>(f, whole, drawn);
+                return detail::selected(drawn, detail::quotient<Value>(result, divisor));
             } else {
                 const R weight = weight_given<I, R>(sample.value, [&] { return weighed(drawn, own); });
                 if constexpr (!detail::AlwaysPositive<H>) {
                     drawn = drawn && weight > 0;
-                    if (!real::any(drawn)) return Value{};
+                    if (!real::any(drawn)) return zero<Value>::value();
                 }
                 const auto& whole = seen<I, only_point, R>(sample);
-                return detail::selected(drawn,
-                                        Value(detail::evaluate_in<false, R>(f, whole, drawn) * R(weight / divisor)));
+                decltype(auto) result = detail::evaluate_in<false, R>(f, whole, drawn);
+                return detail::selected(drawn, detail::scaled<Value>(result, R(weight / divisor)));
             }
         }
     }

@@ -1,6 +1,7 @@
 // What an estimator asks of an integrand: it takes a point or a whole sample, and returns something that can be summed.
 #pragma once
 
+#include "lumis/combine/zero.hpp"
 #include "lumis/core/detail/in_lanes.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
@@ -18,18 +19,22 @@ namespace lumis::LUMIS_ISA {
 template <class F, class Argument, bool is_delta>
 concept Takes = (is_delta ? std::invocable<F&, const Argument&, delta_t> : std::invocable<F&, const Argument&>);
 
-// What an integrand returns scales by the strategies' Scalar. A glm::dvec3 does not by a float.
+// Value, times a Scalar, is a Value again, or converts to one.
 template <class Value, class Scalar>
 concept ScalesBy = requires(const Value value, const Scalar scale) {
-    value* scale;
+    { value* scale } -> std::convertible_to<Value>;
 };
 
-// The product adds to itself, and value-initialised it is a zero: a number, a glm::vec, a host's spectrum. Those of Eigen
-// are none: its products refer to their operands.
+// The same of a sum: a number, a glm::vec, a host's spectrum. No expression template does, for a sum of two is of a third type.
 template <class Value>
-concept AddsUp = std::default_initializable<Value> && requires(const Value value) {
+concept AddsUp = requires(const Value value) {
     { value + value } -> std::convertible_to<Value>;
 };
+
+// What an estimate is, for an integrand that returns Result: the same. An integer counts as a number R, for a weight would be
+// lost in it.
+template <class Result, class R>
+using ValueOf = std::conditional_t<std::integral<Result>, R, Result>;
 
 namespace detail {
 
@@ -61,16 +66,77 @@ template <class F, class Drawn, bool is_delta>
 template <class F, class Drawn, bool is_delta>
 using ResultOf = std::remove_cvref_t<typename decltype(result_of<F, Drawn, is_delta>())::type>;
 
-template <class Value, class Scalar>
-using ScaledBy = std::remove_cvref_t<decltype(std::declval<const Value&>() * Scalar{})>;
+// The number T, or as many lanes of T as R has.
+template <class R, class T>
+struct AsManyOf : std::type_identity<T> {};
+template <class R, class T>
+    requires(!std::floating_point<R>)
+struct AsManyOf<R, T> : std::type_identity<typename R::template Of<T>> {};
+
+// Becomes a T and nothing else: it tells what a host's product takes without a conversion.
+template <class T>
+struct Only {
+    template <std::same_as<T> U>
+    LUMIS_HD operator U() const;
+};
+
+// Doubles are rounded by a product that takes floats: better once, here.
+template <class Value, class R>
+concept TakesFloats = std::same_as<R, double> && !ScalesBy<Value, Only<double>> && ScalesBy<Value, Only<float>>;
+
+// What scales a Value that is weighed by an R: R, or else doubles, or else floats.
+template <class Value, class R>
+[[nodiscard]] consteval auto scale_of() {
+    using Doubles = AsManyOf<R, double>;
+    using Floats = AsManyOf<R, float>;
+    if constexpr (ScalesBy<Value, R> && !TakesFloats<Value, R>) {
+        return std::type_identity<R>{};
+    } else if constexpr (ScalesBy<Value, typename Doubles::type> && !TakesFloats<Value, R>) {
+        return Doubles{};
+    } else if constexpr (ScalesBy<Value, typename Floats::type>) {
+        return Floats{};
+    }
+}
+template <class Value, class R>
+using ScaleOf = decltype(scale_of<Value, R>());
+
+template <class Value, class R>
+concept Scales = requires {
+    typename ScaleOf<Value, R>::type;
+};
+
+// What an integrand returned, times a factor. Converted while the operands are there: a product may be an expression that
+// refers to them.
+template <class Value, class Result, Real R>
+[[nodiscard]] LUMIS_INLINE constexpr Value scaled(const Result& result, R factor) {
+    using Scale = typename ScaleOf<Value, R>::type;
+    if constexpr (std::integral<Result>) {
+        return static_cast<Value>(result) * factor;
+    } else {
+        return static_cast<Value>(result * static_cast<Scale>(factor));
+    }
+}
+
+// The same over a divisor. A number is divided, which rounds once; other values need only scale.
+template <class Value, class Result, Real R>
+[[nodiscard]] LUMIS_INLINE constexpr Value quotient(const Result& result, R divisor) {
+    if constexpr (std::is_arithmetic_v<Result> || std::same_as<Value, R>) {
+        using Wider = std::conditional_t<std::same_as<Value, R>, R, decltype(result * divisor)>;
+        return static_cast<Value>(static_cast<Wider>(result) / static_cast<Wider>(divisor));
+    } else {
+        return scaled<Value>(result, R(1 / divisor));
+    }
+}
 
 }  // namespace detail
 
 // F can be integrated by samples of type Drawn.
 template <class F, class Drawn, class Scalar, bool is_delta = false>
-concept IntegrandOfSamples = (Takes<F, decltype(Drawn::value), is_delta> || Takes<F, Drawn, is_delta>)&&ScalesBy<
-    detail::ResultOf<F, Drawn, is_delta>,
-    Scalar>&& AddsUp<detail::ScaledBy<detail::ResultOf<F, Drawn, is_delta>, Scalar>>;
+concept IntegrandOfSamples = (Takes<F, decltype(Drawn::value), is_delta> || Takes<F, Drawn, is_delta>)&&requires {
+    requires detail::Scales<ValueOf<detail::ResultOf<F, Drawn, is_delta>, Scalar>, Scalar>;
+    requires AddsUp<ValueOf<detail::ResultOf<F, Drawn, is_delta>, Scalar>>;
+    requires HasZero<ValueOf<detail::ResultOf<F, Drawn, is_delta>, Scalar>>;
+};
 
 // F can be integrated by a strategy of type S.
 template <class F, class S>
@@ -90,32 +156,32 @@ consteval void require_integrand() {
     } else if constexpr (std::is_void_v<ResultOf<F, Drawn, is_delta>>) {
         static_assert(!std::is_void_v<ResultOf<F, Drawn, is_delta>>,
                       "an integrand returns its value, but this one returns void");
-    } else if constexpr (!ScalesBy<ResultOf<F, Drawn, is_delta>, Scalar>) {
-        static_assert(ScalesBy<ResultOf<F, Drawn, is_delta>, Scalar>,
-                      "an integrand's value scales by the strategies' Scalar: glm::vec3 over strategies of float, "
-                      "glm::dvec3 over those of double");
     } else {
-        static_assert(AddsUp<ScaledBy<ResultOf<F, Drawn, is_delta>, Scalar>>,
-                      "an integrand's value, scaled, adds to itself and has a zero, Value{}: expression templates such "
-                      "as Eigen's are no values");
+        using Value = ValueOf<ResultOf<F, Drawn, is_delta>, Scalar>;
+        static_assert(Scales<Value, Scalar> && AddsUp<Value>,
+                      "an integrand's value, times a number, is one of the same type, and so is a sum of two; one that "
+                      "returns an expression template says what value it stands for: -> Eigen::Array3f");
+        static_assert(HasZero<Value> || !Scales<Value, Scalar> || !AddsUp<Value>,
+                      "an integrand's value has a zero, but its default constructor may set none: template <> struct "
+                      "lumis::zero<Value> { static Value value() { return ...; } };");
     }
 }
 
 // What an integrand over numbers returns, in lanes: of numbers, and of a glm::vec of numbers.
 template <class Value, class R>
 struct ValueIn {};
-template <class Value, class R>
-    requires std::is_arithmetic_v<Value>
-struct ValueIn<Value, R> : std::type_identity<R> {
-};
+template <std::integral Value, class R>
+struct ValueIn<Value, R> : std::type_identity<R> {};
+template <std::floating_point Value, class R>
+struct ValueIn<Value, R> : AsManyOf<R, Value> {};
 template <int N, class T, glm::qualifier Q, class R>
     requires std::is_arithmetic_v<T>
-struct ValueIn<glm::vec<N, T, Q>, R> : std::type_identity<glm::vec<N, R, Q>> {
+struct ValueIn<glm::vec<N, T, Q>, R> : std::type_identity<glm::vec<N, typename ValueIn<T, R>::type, Q>> {
 };
 
 template <class Value>
 concept OfNumbers = requires {
-    typename ValueIn<Value, Value>::type;
+    typename ValueIn<Value, float>::type;
 };
 
 // An integrand that is written for a Real: given lanes, it returns something that is made of lanes as well. Any other is
@@ -147,11 +213,22 @@ template <bool is_delta, Real R, class F, class Drawn>
         using Value = ResultOf<F, decltype(lane_of_sample(sample, 0)), is_delta>;
         static_assert(OfNumbers<Value>,
                       "lanes of estimates are summed for integrands that take lanes, or return a number or a glm::vec");
-        typename ValueIn<Value, R>::type result{};
+        auto result = zero<typename ValueIn<Value, R>::type>::value();
         for (std::size_t i = 0; i < R::size; ++i) {
             if (drawn[i]) put_lane(result, i, evaluate<is_delta>(f, lane_of_sample(sample, i)));
         }
         return result;
+    }
+}
+
+// A condition for lanes of another type.
+template <class Lanes, class Mask>
+[[nodiscard]] LUMIS_INLINE inline MaskOf<Lanes> mask_for(const Mask& condition) {
+    if constexpr (std::same_as<Mask, MaskOf<Lanes>>) {
+        return condition;
+    } else {
+        using T = scalar_of<Lanes>;
+        return Lanes::of_lanes([&](auto i) { return condition[i] ? T(1) : T(0); }) > T(0);
     }
 }
 
@@ -162,13 +239,13 @@ template <class Mask, class Value>
     if constexpr (std::same_as<Mask, bool>) {
         return value;
     } else if constexpr (Real<Value>) {
-        return real::select(condition, value, scalar_of<Value>(0));
+        return real::select(mask_for<Value>(condition), value, scalar_of<Value>(0));
     } else {
         constexpr bool has_select = requires {
-            select(condition, value, Value{});
+            select(condition, value, value);
         };
         static_assert(has_select, "a type of one's own offers select(condition, a, b) where lanes of it are summed");
-        return select(condition, value, Value{});
+        return select(condition, value, zero<Value>::value());
     }
 }
 template <class Mask, int N, class R, glm::qualifier Q>
@@ -176,7 +253,7 @@ template <class Mask, int N, class R, glm::qualifier Q>
     if constexpr (std::same_as<Mask, bool>) {
         return value;
     } else {
-        return select_point(condition, value, glm::vec<N, R, Q>{R(scalar_of<R>(0))});
+        return select_point(mask_for<R>(condition), value, glm::vec<N, R, Q>{R(scalar_of<R>(0))});
     }
 }
 

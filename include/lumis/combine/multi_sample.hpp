@@ -17,9 +17,10 @@ class MultiSample : public Combination<H, S...> {
         : Base{heuristic, {Scalar(static_cast<scalar_of<Scalar>>(techniques.count))...}, std::move(techniques)...},
           counts_{techniques.count...} {}
 
-    // An unbiased estimate of the integral of f. f(x) returns a number, a glm::vec, or any type that adds to itself and
-    // scales by Scalar, and whose value-initialised object is zero. It may take the whole sample instead, f(sample),
-    // if it cannot be called with the point alone; a delta strategy calls f(x, lumis::delta), with weight 1.
+    // An unbiased estimate of the integral of f, of the type that f returns; integers count as Scalar. f(x) returns a number,
+    // a glm::vec, or any type that adds to itself, scales by a float or a double, and has a lumis::zero. It may take the
+    // whole sample instead, f(sample), if it cannot be called with the point alone; a delta strategy calls
+    // f(x, lumis::delta), with weight 1.
     //
     // A source that yields Lanes of Scalar makes an estimate in each lane. f then gets points in lanes; one that is written
     // for numbers is called for each lane. A type of one's own offers select(condition, a, b).
@@ -29,7 +30,7 @@ class MultiSample : public Combination<H, S...> {
         using R = RealFrom<U, Scalar>;
         using First = typename Base::template Nth<0>;
         using Value = decltype(this->template draw<0, R>(f, detail::next_for<First, R>(uniforms)));
-        Value sum{};
+        Value sum = zero<Value>::value();
         detail::for_each_index<Base::size>([&](auto i) {
             using Part = typename Base::template Nth<i>;
             for (int k = 0; k < counts_[i]; ++k) {

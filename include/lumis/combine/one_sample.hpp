@@ -28,7 +28,7 @@ class OneSample : public Combination<H, S...> {
         using R = RealFrom<U, Scalar>;
         using First = typename Base::template Nth<0>;
         using Value = decltype(this->template draw<0, R>(f, detail::next_for<First, R>(uniforms)));
-        Value result{};
+        Value result = zero<Value>::value();
         R remaining = is_certain() ? R(scalar_of<R>(0)) : glm::vec<1, R>(uniforms.template next<1>()).x;
         if constexpr (std::floating_point<R>) {
             bool selected = false;
