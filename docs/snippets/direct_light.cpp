@@ -11,6 +11,30 @@ namespace {
 
 using glm::vec3;
 
+// The host's colours, eight bands of them.
+struct Spectrum {
+    float bands[8];
+    Spectrum() {}  // sets nothing
+    explicit Spectrum(float all) { std::fill_n(bands, 8, all); }
+};
+[[maybe_unused]] Spectrum operator*(Spectrum a, float scale) {
+    for (float& band : a.bands) band *= scale;
+    return a;
+}
+[[maybe_unused]] Spectrum operator+(Spectrum a, const Spectrum& b) {
+    for (int i = 0; i < 8; ++i) a.bands[i] += b.bands[i];
+    return a;
+}
+
+}  // namespace
+
+template <>
+struct lumis::zero<Spectrum> {
+    static Spectrum value() { return Spectrum{0}; }
+};
+
+namespace {
+
 // The host's world: a triangle of radiance (1, 2, 3) over the origin, and a floor that reflects all.
 const vec3 a{0, 0, 1}, b{1, 0, 1}, c{0, 1, 1};
 constexpr double irradiance = 0.302299894039;  // Lambert's formula, radiance 1
@@ -42,6 +66,17 @@ TEST_CASE("a BSDF and a light share an estimate") {
         return reflected(vec3{0}, vec3{0, 0, 1}, glm::normalize(vec3{1, 0, 2}), uniforms).y;
     };
     const auto law = z_test<float>(green, 2 * irradiance / std::numbers::pi, 1);
+    INFO(law.message);
+    CHECK(law.passed);
+}
+
+TEST_CASE("a host's own colours") {
+    const lumis::AreaLight light{lumis::Triangle{a, b, c}, vec3{0}};
+    const auto direct = multi_sample(lumis::BalanceHeuristic{}, lumis::take(1, light));
+    const auto band = [&](auto& uniforms) {
+        return direct.estimate([](vec3 wi) { return Spectrum{brdf_cos(wi)}; }, uniforms).bands[7];
+    };
+    const auto law = z_test<float>(band, irradiance / std::numbers::pi, 1);
     INFO(law.message);
     CHECK(law.passed);
 }
