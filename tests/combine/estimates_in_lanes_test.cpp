@@ -248,6 +248,27 @@ TEMPLATE_TEST_CASE("densities and weights at lanes of points", "[lanes]", float,
     }
 }
 
+TEMPLATE_TEST_CASE("weighted samples in lanes are those of each lane", "[lanes][weighted_sample]", float, double) {
+    using T = TestType;
+    using L = lumis::NativeLanes<T>;
+    const Scene<T> scene;
+    const auto direct = lumis::multi_sample(lumis::PowerHeuristic{}, take(2, scene.ggx), take(1, scene.square),
+                                            take(1, lumis::PerfectReflection<T>{scene.wo}));
+    const L u = counting<L>(T(0.25)) / T(2 * L::size), known = counting<L>(T(0));
+    const auto lanes = direct.template weighted_sample<0>(Same<L>{u});
+    const L weights = lanes.weight(), given = lanes.template weight_given<1>(known), factors = lanes.factor();
+    const L mirrored = direct.template weighted_sample<2>(Same<L>{u}).weight();
+    const auto near = [](T a, T b) { return std::abs(a - b) <= 1000 * std::numeric_limits<T>::epsilon() * b; };
+    for (std::size_t i = 0; i < L::size; ++i) {
+        const auto alone = direct.template weighted_sample<0>(Same<T>{u[i]});
+        CHECK(near(lanes.density[i], alone.density));
+        CHECK(near(weights[i], alone.weight()));
+        CHECK(near(given[i], alone.template weight_given<1>(known[i])));
+        CHECK(near(factors[i], alone.factor()));
+        CHECK(mirrored[i] == 1);
+    }
+}
+
 TEMPLATE_TEST_CASE("strategies that are made of lanes combine, and each lane has its own", "[lanes]", float, double) {
     using T = TestType;
     using L = lumis::NativeLanes<T>;

@@ -8,6 +8,7 @@
 #include "lumis/combine/heuristics.hpp"
 #include "lumis/combine/integrand.hpp"
 #include "lumis/combine/technique.hpp"
+#include "lumis/combine/weighted_sample.hpp"
 #include "lumis/combine/zero.hpp"
 #include "lumis/core/detail/for_each_index.hpp"
 #include "lumis/core/platform.hpp"
@@ -103,10 +104,34 @@ class Combination {
         return weight_given<I, R>(x, [&] { return density<I, R>(x); });
     }
 
+    // For hosts that go on with a sample, as a path does: one of technique I, with its effective density and its weight, see
+    // WeightedSample. Spends the strategy's uniforms. A technique whose factor is 0 draws with density 0.
+    template <std::size_t I, class U>
+        requires UniformSource<U, RealFrom<U, Scalar>>
+    [[nodiscard]] LUMIS_INLINE auto weighted_sample(U&& uniforms) const& LUMIS_LIFETIME_BOUND {
+        using R = RealFrom<U, Scalar>;
+        return weighted<I>(detail::sample_in<R>(strategy<I>(), detail::next_for<Nth<I>, R>(uniforms)));
+    }
+    template <std::size_t I, class U>
+    void weighted_sample(U&& uniforms) const&& = delete;  // it refers to the estimator
+
+    // The same of a sample that the host has drawn by the strategy of technique I: that of LightSet::sample_one, for instance.
+    template <std::size_t I, AnySample Drawn>
+    [[nodiscard]] LUMIS_INLINE auto weighted(const Drawn& sample) const& LUMIS_LIFETIME_BOUND {
+        using R = std::remove_cvref_t<decltype(sample.pdf)>;
+        static_assert(RealOf<R, Scalar>, "a sample's density is a Scalar of the strategies");
+        return WeightedSample<Combination, I, Drawn, R>{*this, sample, effective<I, R>(sample.pdf)};
+    }
+    template <std::size_t I, AnySample Drawn>
+    void weighted(const Drawn& sample) const&& = delete;
+
     template <std::size_t I>
     [[nodiscard]] LUMIS_HD const auto& strategy() const noexcept LUMIS_LIFETIME_BOUND {
         return detail::part<I>(strategies_);
     }
+
+    template <std::size_t I>
+    static constexpr bool is_delta = DeltaStrategy<typename detail::NthStrategy<I, First, Rest...>::type>;
 
   protected:
     template <std::size_t I>
@@ -144,8 +169,9 @@ class Combination {
     [[nodiscard]] LUMIS_HD constexpr Scalar factor(std::size_t i) const noexcept { return factors_[i]; }
 
   private:
-    template <std::size_t I>
-    static constexpr bool is_delta = DeltaStrategy<Nth<I>>;
+    template <class, std::size_t, class, Real>
+    friend class WeightedSample;
+
     static constexpr std::size_t number_of_smooth = detail::number_of_smooth<First, Rest...>;
 
     // An integrand in lanes takes a point in lanes; any other is called with one.
@@ -238,9 +264,21 @@ class Combination {
         }
     }
 
+    // The effective density where strategy I has density pdf.
+    template <std::size_t I, Real R>
+    [[nodiscard]] LUMIS_HD R effective(R pdf) const noexcept {
+        return real::any(factors_[I] > 0) ? R(factors_[I] * pdf) : R(scalar_of<R>(0));
+    }
+
     // The weight of technique I at x. own() is technique I's effective density there: a caller that has drawn x knows it.
     template <std::size_t I, Real R, class X, class Own>
     [[nodiscard]] LUMIS_HD R weight_given(const X& x, Own own) const noexcept {
+        return weight_from<I, R>(x, own, [&](auto k) { return density<k, R>(x); });
+    }
+
+    // The same, where other(k) is the effective density of any other technique.
+    template <std::size_t I, Real R, class X, class Own, class Other>
+    [[nodiscard]] LUMIS_HD R weight_from(const X& x, Own own, Other other) const noexcept {
         using T = scalar_of<R>;
         if constexpr (number_of_smooth == 1 && !is_delta<I>) {
             return real::select(own() > 0, R(T(1)), T(0));
@@ -257,7 +295,7 @@ class Combination {
                 if constexpr (k == I) {
                     q[k] = own();
                 } else {
-                    q[k] = density<k, R>(x);
+                    q[k] = other(k);
                 }
             });
             return detail::weigh(heuristic_, I, std::span<const R, size>{q});

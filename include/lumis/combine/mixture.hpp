@@ -111,12 +111,17 @@ class Mixture {
 
     template <Real R>
     [[nodiscard]] LUMIS_HD R density(const PointAt<R>& x) const noexcept {
+        return density_or_zero(sum_of_parts<R>(x, std::make_index_sequence<size>{}));
+    }
+    // Forced inline: clang++ would pass the mixture to for_each_index through memory, where a path tracer asks twice.
+    template <Real R, std::size_t... I>
+    [[nodiscard]] LUMIS_INLINE R sum_of_parts(const PointAt<R>& x, std::index_sequence<I...>) const noexcept {
         R sum = scalar_of<R>(0);
-        detail::for_each_index<size>([&](auto i) {
-            if (real::any(probabilities_[i] > 0))
-                sum += probabilities_[i] * detail::pdf_in<R>(detail::part<i>(parts_), x);
-        });
-        return density_or_zero(sum);
+        const auto add = [&](const Scalar& probability, const auto& part) {
+            if (real::any(probability > 0)) sum += probability * detail::pdf_in<R>(part, x);
+        };
+        (add(probabilities_[I], detail::part<I>(parts_)), ...);
+        return sum;
     }
 
     template <Real R>

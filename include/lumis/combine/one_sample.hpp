@@ -11,6 +11,7 @@ class OneSample : public Combination<H, S...> {
     using Base = Combination<H, S...>;
 
   public:
+    using Base::weighted_sample;
     using typename Base::Scalar;
 
     LUMIS_HD explicit constexpr OneSample(const H& heuristic, Choose<S>&&... techniques)
@@ -29,19 +30,14 @@ class OneSample : public Combination<H, S...> {
         using First = typename Base::template Nth<0>;
         using Value = decltype(this->template draw<0, R>(f, detail::next_for<First, R>(uniforms)));
         Value result = zero<Value>::value();
-        R remaining = is_certain() ? R(scalar_of<R>(0)) : glm::vec<1, R>(uniforms.template next<1>()).x;
         if constexpr (std::floating_point<R>) {
-            bool selected = false;
-            detail::for_each_index<Base::size>([&](auto i) {
-                if (!selected && remaining < this->factor(i)) {
-                    using Part = typename Base::template Nth<i>;
-                    selected = true;
-                    result = Base::template as_value<Value>(
-                        this->template draw<i, R>(f, detail::next_for<Part, R>(uniforms)));
-                }
-                remaining -= this->factor(i);
+            select(uniforms, [&](auto i) {
+                using Part = typename Base::template Nth<i>;
+                result =
+                    Base::template as_value<Value>(this->template draw<i, R>(f, detail::next_for<Part, R>(uniforms)));
             });
         } else {
+            R remaining = first_uniform<R>(uniforms);
             const auto u = glm::vec<largest_dimensions, R>(uniforms.template next<largest_dimensions>());
             MaskOf<R> open = true;
             detail::for_each_index<Base::size>([&](auto i) {
@@ -61,6 +57,21 @@ class OneSample : public Combination<H, S...> {
         return result;
     }
 
+    // For hosts that go on with the sample, as a path does: selects a technique, draws from it, and calls visit(s) with a
+    // WeightedSample, which knows its technique and whether that is a delta strategy. Returns whether anything was drawn: else
+    // visit is not called. Spends what an estimate does. Of numbers: lanes select techniques of their own.
+    template <class U, class Visit>
+    requires UniformSource<U, Scalar> LUMIS_HD bool weighted_sample(U&& uniforms, Visit&& visit) const {
+        static_assert(std::floating_point<RealFrom<U, Scalar>>, "lanes are drawn by weighted_sample<I>(uniforms)");
+        bool drawn = false;
+        select(uniforms, [&](auto i) {
+            const auto sample = this->template weighted_sample<i>(uniforms);
+            drawn = sample.density > 0;
+            if (drawn) visit(sample);
+        });
+        return drawn;
+    }
+
     // What an estimate spends at most.
     [[nodiscard]] LUMIS_HD constexpr std::size_t uniforms_per_estimate() const noexcept {
         return std::size_t{!is_certain()} + std::size_t{largest_dimensions};
@@ -69,6 +80,25 @@ class OneSample : public Combination<H, S...> {
   private:
     static constexpr int largest_dimensions =
         real::largest_of(std::array<int, sizeof...(S)>{std::remove_cvref_t<S>::dimensions...});
+
+    template <Real R, class U>
+    [[nodiscard]] LUMIS_INLINE R first_uniform(U& uniforms) const {
+        return is_certain() ? R(scalar_of<R>(0)) : glm::vec<1, R>(uniforms.template next<1>()).x;
+    }
+
+    // Calls visit(i) with the technique that a uniform selects, if any.
+    template <class U, class Visit>
+    LUMIS_INLINE void select(U& uniforms, Visit visit) const {
+        Scalar remaining = first_uniform<Scalar>(uniforms);
+        bool selected = false;
+        detail::for_each_index<Base::size>([&](auto i) {
+            if (!selected && remaining < this->factor(i)) {
+                selected = true;
+                visit(i);
+            }
+            remaining -= this->factor(i);
+        });
+    }
 
     [[nodiscard]] LUMIS_HD constexpr bool is_certain() const noexcept {
         return Base::size == 1 && real::all(this->factor(0) >= 1);
