@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -87,51 +88,53 @@ Hit closest(const vec3& origin, const vec3& direction) {
 
 // A ball as seen from a point. A ball does not light itself: from its own surface it may subtend anything.
 using Light = lumis::AreaLight<lumis::Sphere<float>, lumis::BySolidAngle>;
-constexpr lumis::PowerHeuristic heuristic;
 
-float radiance(vec3 origin, vec3 direction, const lumis::AliasTable<float>& choice, auto& uniforms) {
-    float sum = 0, throughput = 1;
-    float bsdf_pdf = 0;  // with which the BSDF drew `direction`; 0: it is the camera's
+float radiance(const vec3& origin, vec3 direction, const lumis::AliasTable<float>& choice, auto& uniforms) {
+    Hit hit = closest(origin, direction);
+    float sum = hit.material->emitted(-glm::dot(hit.normal, direction)), throughput = 1;
     while (true) {
-        const Hit hit = closest(origin, direction);
+        // Two techniques share what a ball emits towards this vertex. Of the lights, one is chosen and sampled.
         const lumis::Frame<float> frame{hit.normal};
         const vec3 wo = frame.to_local(-direction);
-
-        // The first half: emission that the BSDF's ray has met. If it is a light's, light sampling could have found it
-        // too, with the probability of choosing this light times its density from the vertex before.
-        float weight = 1;
-        if (bsdf_pdf > 0 && hit.ball < balls.size()) {
-            const Light light{balls[hit.ball].shape, origin};
-            const float light_pdf = choice.pdf(hit.ball) * light.pdf_from_hit(hit.distance, wo.z);
-            weight = lumis::mis_weight(heuristic, bsdf_pdf, light_pdf);
-        }
-        sum += throughput * weight * hit.material->emitted(wo.z);
-
-        // The second half: next event estimation, of one light.
+        const auto seen_from_here = [&](std::size_t i) { return Light{balls[i].shape, hit.position}; };
+        const lumis::LightSet lights{seen_from_here, choice};
         const auto bsdf = lumis::in_frame(frame, hit.material->bsdf(wo));
-        const lumis::LightSet lights{[&](std::size_t i) { return Light{balls[i].shape, hit.position}; }, choice};
+        const auto direct = lumis::multi_sample(lumis::PowerHeuristic{}, lumis::take(1, std::cref(bsdf)),
+                                                lumis::take(1, std::cref(lights)));
+
+        // The first half: next event estimation, weighed against the BSDF.
         const auto [chosen, sample] = lights.sample_one(uniforms.template next<3>());
-        const float towards_light = hit.material->reflected(wo, frame.to_local(sample.value));
-        if (sample.pdf > 0 && towards_light > 0 && chosen != hit.ball) {
+        const float reflected = hit.material->reflected(wo, frame.to_local(sample.value));
+        if (sample.pdf > 0 && reflected > 0 && chosen != hit.ball) {
             const Hit seen = closest(hit.position, sample.value);  // the shadow ray
             if (seen.ball == chosen) {
                 const float emitted = seen.material->emitted(-glm::dot(seen.normal, sample.value));
-                const float other = lumis::mis_weight(heuristic, sample.pdf, bsdf.pdf(sample.value));
-                sum += throughput * other * towards_light * emitted / sample.pdf;
+                sum += throughput * reflected * emitted * direct.template weighted<1>(sample).factor();
             }
         }
 
         // On along the BSDF. Nothing drawn means that the path is absorbed: that counts, as a contribution of 0.
-        const auto next = bsdf.sample(uniforms.template next<3>());
-        if (!(next.pdf > 0)) return sum;
-        throughput *= hit.material->reflected(wo, frame.to_local(next.value)) / next.pdf;
+        const auto next = direct.template weighted_sample<0>(uniforms);
+        if (!(next.density > 0)) return sum;
+        throughput *= hit.material->reflected(wo, frame.to_local(next.sample.value)) / next.density;
+
+        // The second half: emission that the BSDF's ray meets. If it is a light's, light sampling could have found it too,
+        // with the probability of choosing this light times its density from here.
+        const Hit met = closest(hit.position, next.sample.value);
+        const float cosine = -glm::dot(met.normal, next.sample.value);
+        float weight = 1;
+        if (met.ball < balls.size()) {
+            const float density = seen_from_here(met.ball).pdf_from_hit(met.distance, cosine);
+            weight = next.template weight_given<1>(choice.pdf(met.ball) * density);
+        }
+        sum += throughput * weight * met.material->emitted(cosine);
 
         // Russian roulette: a path that goes on stands for those that end. A largest depth would lose their light.
         const float survival = std::min(throughput, 1.0f);
         if (!(uniforms.template next<1>().x < survival)) return sum;
         throughput /= survival;
 
-        origin = hit.position, direction = next.value, bsdf_pdf = next.pdf;
+        direction = next.sample.value, hit = met;
     }
 }
 
