@@ -26,7 +26,7 @@ class WeightedSample {
     R density;
 
     LUMIS_INLINE constexpr WeightedSample(const Estimator& estimator LUMIS_LIFETIME_BOUND, const Drawn& drawn,
-                                      R effective_density)
+                                          R effective_density)
         : sample{drawn}, density{effective_density}, estimator_{&estimator} {}
 
     // The MIS weight among all techniques; asks each of the others for its density. 1 for a delta strategy's sample, 0 where
