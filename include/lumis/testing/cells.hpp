@@ -32,6 +32,13 @@ class Cells {
         return line(s_, place.x) * (t_.size() - 1) + line(t_, place.y);
     }
 
+    // Which of at most parts x parts blocks of neighbouring cells holds a cell; blocks are numbered below parts^2.
+    [[nodiscard]] std::size_t block(std::size_t cell, std::size_t parts) const noexcept {
+        const std::size_t rows = s_.size() - 1, columns = t_.size() - 1;
+        const std::size_t i = cell / columns * (std::min)(parts, rows) / rows;
+        return i * parts + cell % columns * (std::min)(parts, columns) / columns;
+    }
+
     [[nodiscard]] Point centre(std::size_t cell) const {
         const std::size_t i = cell / (t_.size() - 1), j = cell % (t_.size() - 1);
         return chart_.at((s_[i] + s_[i + 1]) / 2, (t_[j] + t_[j + 1]) / 2).point;
