@@ -132,6 +132,39 @@ TEST_CASE("unbiasedness of colours", "[laws]") {
     CHECK_FALSE(integrates(std::numbers::pi * glm::dvec3{1, 2, 3.1}).passed);
 }
 
+TEST_CASE("two estimators agree, or do not", "[laws]") {
+    auto uniforms = lumis::Uniforms<std::mt19937_64, double>{std::mt19937_64{1}};
+    const auto square = [&] { return 3 * std::pow(uniforms.next<1>().x, 2); };
+    const auto twice = [&] { return 2 * uniforms.next<1>().x; };
+    const auto tripled = [&](double factor) { return [=] { return factor * twice() * glm::dvec3{1, 0, 3}; }; };
+    const laws::UnbiasedOptions options{100'000};
+    const auto right = laws::agreement(square, twice, options);
+    INFO(right);
+    CHECK(right.passed);
+    CHECK(right.smallest_bias_seen < 0.01);
+    CHECK_FALSE(laws::agreement(
+                    square, [&] { return 1.01 * twice(); }, options)
+                    .passed);
+    CHECK(laws::agreement(square, [&] { return 1.01 * twice(); }, {100'000, {}, 0.02}).passed);
+    CHECK(laws::agreement(tripled(1), tripled(1), options).passed);
+    const auto wrong = laws::agreement(tripled(1), tripled(1.02), options);
+    CHECK_FALSE(wrong.passed);
+    CHECK(wrong.message.find("component ") == 0);
+    // Pairs that share their random numbers differ by what they are wrong by.
+    double u = 0;
+    const auto first = [&] { return 2 * (u = uniforms.next<1>().x); };
+    CHECK(laws::agreement(
+              first, [&] { return 2 * (1 - u); }, options)
+              .passed);
+    CHECK_FALSE(laws::agreement(
+                    first, [&] { return 2.0001 * u; }, options)
+                    .passed);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK_FALSE(laws::agreement(
+                    square, [&] { return nan; }, options)
+                    .passed);
+}
+
 TEST_CASE("a law's message tells what its p-value means, and the law prints it", "[laws]") {
     auto uniforms = lumis::Uniforms<std::mt19937_64, double>{std::mt19937_64{1}};
     const auto law = laws::unbiased([&] { return 2 * uniforms.next<1>().x; }, 1.02, {100'000, {0.01, 1000}});

@@ -11,12 +11,16 @@
 //     stays_near(in_float, in_double)     float draws nearly what double draws
 //     stability(parameters, make)         finite, and float near double, over a sweep
 //     unbiased(estimate, answer)          an estimator's mean is the answer
+//     agreement(estimate, other)          two estimators have the same mean
 //     unbiased_under_every_heuristic(f, answer, factors, options, strategies...)
 //                                         the same, of strategies combined in all ways, or of an estimator of one's own
+// With Sequential{false_alarm, at_most} as their last argument, chi_square, and unbiased and agreement of estimates with a bound,
+// stop as soon as they know.
 // Each yields a LawResult, which tests as a bool and prints itself. Needs Boost.Math; nothing else in Lumis includes this folder.
 #pragma once
 
 #include "lumis/testing/agreement.hpp"
+#include "lumis/testing/bounded.hpp"
 #include "lumis/testing/charts.hpp"
 #include "lumis/testing/chi_square.hpp"
 #include "lumis/testing/coverage.hpp"
@@ -27,5 +31,7 @@
 #include "lumis/testing/points.hpp"
 #include "lumis/testing/result.hpp"
 #include "lumis/testing/round_trip.hpp"
+#include "lumis/testing/sequential.hpp"
 #include "lumis/testing/stability.hpp"
+#include "lumis/testing/two_estimators.hpp"
 #include "lumis/testing/unbiased.hpp"

@@ -47,12 +47,12 @@ struct Channels<glm::vec<N, T, Q>> {
     }
 };
 
-// Two-sided z-test of a mean.
+// Two-sided z-test of a mean. scale: of what the relative figures are a share.
 [[nodiscard]] inline UnbiasedResult z_test(const RunningMoments<double>& moments, double answer, double answer_error,
-                                           const Significance& significance) {
+                                           const Significance& significance, double scale) {
     const boost::math::normal_distribution<double> normal;
     const double mean = moments.mean(), error = moments.standard_error(), threshold = significance.threshold();
-    const double off = std::abs(mean - answer), excess = std::fmax(off - answer_error, 0), scale = std::abs(answer);
+    const double off = std::abs(mean - answer), excess = std::fmax(off - answer_error, 0);
     const auto number_of = [](std::uint64_t n) { return static_cast<double>(n); };
 
     UnbiasedResult result;
@@ -81,6 +81,22 @@ struct Channels<glm::vec<N, T, Q>> {
     return result;
 }
 
+// The worst of a test for each component.
+template <int Components, class Test>
+[[nodiscard]] UnbiasedResult worst_component(const Test& test) {
+    UnbiasedResult worst;
+    for (int i = 0; i < Components; ++i) {
+        UnbiasedResult law = test(i);
+        if (Components > 1) law.message = text("component ", i, ": ") + law.message;
+        const double error = std::fmax(law.relative_standard_error, worst.relative_standard_error);
+        const double bias = std::fmax(law.smallest_bias_seen, worst.smallest_bias_seen);
+        if (i == 0 || (worst.passed && (!law.passed || law.number < worst.number))) worst = law;
+        worst.relative_standard_error = error;
+        worst.smallest_bias_seen = bias;
+    }
+    return worst;
+}
+
 }  // namespace detail
 
 // estimate() yields independent estimates: numbers, or colours (glm::vec), of which each component is tested and the
@@ -101,20 +117,12 @@ template <class Estimate, class Answer>
 
     Significance significance = options.significance;
     significance.family *= channels;
-    UnbiasedResult worst;
-    for (int channel = 0; channel < channels; ++channel) {
+    return detail::worst_component<channels>([&](int channel) {
         const double exact = detail::Channels<Answer>::get(answer, channel);
         const double rounding = 4 * double{std::numeric_limits<typename Channels::Scalar>::epsilon()} * std::abs(exact);
-        auto law = detail::z_test(moments[static_cast<std::size_t>(channel)], exact, options.answer_error + rounding,
-                                  significance);
-        if (channels > 1) law.message = detail::text("component ", channel, ": ") + law.message;
-        const double error = std::fmax(law.relative_standard_error, worst.relative_standard_error);
-        const double bias = std::fmax(law.smallest_bias_seen, worst.smallest_bias_seen);
-        if (channel == 0 || (worst.passed && (!law.passed || law.number < worst.number))) worst = law;
-        worst.relative_standard_error = error;
-        worst.smallest_bias_seen = bias;
-    }
-    return worst;
+        return detail::z_test(moments[static_cast<std::size_t>(channel)], exact, options.answer_error + rounding,
+                              significance, std::abs(exact));
+    });
 }
 
 }  // namespace lumis::LUMIS_ISA::testing
