@@ -14,6 +14,9 @@
 //     agreement(estimate, other)          two estimators have the same mean
 //     unbiased_under_every_heuristic(f, answer, factors, options, strategies...)
 //                                         the same, of strategies combined in all ways, or of an estimator of one's own
+//     weighs(strategy, f_cos)             the weight that a material's samples report is f cos / pdf
+//     is_reciprocal(f)                    a material looks the same both ways
+//     conserves_energy(f, wo, chart)      a material gives no more light than it gets
 // With Sequential{false_alarm, at_most} as their last argument, chi_square, and unbiased and agreement of estimates with a bound,
 // stop as soon as they know.
 // Each yields a LawResult, which tests as a bool and prints itself. Needs Boost.Math; nothing else in Lumis includes this folder.
@@ -28,6 +31,7 @@
 #include "lumis/testing/every_heuristic.hpp"
 #include "lumis/testing/integration.hpp"
 #include "lumis/testing/jacobian.hpp"
+#include "lumis/testing/materials.hpp"
 #include "lumis/testing/points.hpp"
 #include "lumis/testing/result.hpp"
 #include "lumis/testing/round_trip.hpp"
