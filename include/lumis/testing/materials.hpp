@@ -174,7 +174,8 @@ template <Bsdf F>
         if (options.both_sides && i % 4 < 2) wi.z = -wi.z;
         check(wo, wi);
     }
-    result.message += detail::text(result.passed ? "" : "; ", "the same both ways to ", result.number);
+    result.message += result.passed ? detail::text("the same both ways to ", result.number)
+                                    : detail::text("; differs by ", result.number, " at most, relative");
     return result;
 }
 
