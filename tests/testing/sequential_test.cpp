@@ -135,6 +135,7 @@ TEST_CASE("a bound that does not hold is no promise", "[laws]") {
     CHECK_FALSE(laws::unbiased(laws::Bounded{0, 1, unbounded}, 2, laws::Sequential{}).passed);
     CHECK_FALSE(laws::unbiased(laws::Bounded{1, 1, unbounded}, 1, laws::Sequential{}).passed);
     CHECK(laws::unbiased(laws::Bounded{0, 1, unbounded}, 1, laws::Sequential{0.01, 1000}));
+    CHECK_FALSE(laws::unbiased(laws::Bounded{0, 1, unbounded}, 1, laws::Sequential{0.01, 0}).decided);
 }
 
 // 300 runs at 5 %: Ville's inequality allows 15 on average, and more than 30 come about once in 10,000 times.

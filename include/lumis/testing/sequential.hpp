@@ -54,7 +54,8 @@ template <class Take, class LogEvidence>
     }
     SequentialResult result;
     result.samples = taken;
-    result.passed = goes_on && largest < enough;
+    result.passed = goes_on && largest < enough && taken > 0;
+    result.decided = taken > 0;
     result.number = std::exp(-largest);
     result.message = text("evidence ", std::exp(largest), " after ", static_cast<double>(taken), " samples, ",
                           result.passed ? "never " : "", "at least ", 1 / options.false_alarm,
