@@ -67,6 +67,7 @@ TEMPLATE_TEST_CASE("the weight of a sample is f cos / pdf", "[laws]", float, dou
             const auto right = weighs<TestType>(wo, alpha, 1);
             INFO(label("wo ", wo, ", alpha ", alpha) << ": " << right);
             CHECK(right.passed);
+            CHECK_FALSE(weighs<TestType>(wo, alpha, 0.999).passed);
             const auto wrong = weighs<TestType>(wo, alpha, 1.001);
             CHECK_FALSE(wrong.passed);
             CHECK(wrong.message.find("; weights exceed f cos / pdf by the same factor 1.001 at all ") !=

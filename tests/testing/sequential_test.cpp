@@ -58,11 +58,19 @@ TEST_CASE("a sequential chi-square test stops as soon as it knows", "[laws]") {
         CHECK(static_cast<double>(wrong.samples) <= 60 / (more * more));
         before = wrong.samples;
     }
-    // Nothing is drawn too often or too seldom.
+    // Nothing is drawn too seldom, or too often: evenly, so that no cell has more than its share of the rest.
     const auto half = consistently_broken(Uniform{}, [](const V&, double pdf) { return pdf / 2; });
-    const auto lost = laws::chi_square(half, laws::sphere_chart(), laws::Sequential{});
-    CHECK_FALSE(lost.passed);
-    CHECK(lost.samples < 100);
+    const auto forgetful = Broken{Uniform{},
+                                  [](auto sample) {
+                                      if (std::fmod(1e6 * sample.value.z, 1.0) < 0.1) sample.pdf = 0;
+                                      return sample;
+                                  },
+                                  same_pdf};
+    const auto seldom = laws::chi_square(half, laws::sphere_chart(), laws::Sequential{});
+    const auto often = laws::chi_square(forgetful, laws::sphere_chart(), laws::Sequential{});
+    CHECK_FALSE((seldom.passed || often.passed));
+    CHECK(seldom.samples < 100);
+    CHECK(often.samples < 200);
 }
 
 TEST_CASE("a sequential chi-square test refuses what can be told at once", "[laws]") {
