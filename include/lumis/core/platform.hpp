@@ -20,6 +20,7 @@
 
 #if defined(_MSVC_LANG) ? _MSVC_LANG < 202002L : __cplusplus < 202002L
 #error "Lumis is written in C++20: compile with -std=c++20 (g++, clang++, nvcc) or /std:c++20 (MSVC)"
+#include "Lumis needs C++20"  // no such file: otherwise a thousand errors follow, for only this one ends a compilation
 #endif
 
 // x87 keeps more digits than the type has, when it likes: what is written and what is computed with then differ.
