@@ -9,6 +9,14 @@
 #pragma nv_diag_suppress 20011, 20012, 20014
 #endif
 
+// Macros of a host's that are names here are set aside up to the last line.
+#pragma push_macro("D")
+#pragma push_macro("Real")
+#pragma push_macro("real")
+#undef D
+#undef Real
+#undef real
+
 #include "lumis/combine/heuristics.hpp"
 #include "lumis/combine/in_frame.hpp"
 #include "lumis/combine/mixture.hpp"
@@ -46,6 +54,10 @@
 #include "lumis/tables/discrete_table.hpp"
 #include "lumis/tables/piecewise_constant.hpp"
 #include "lumis/version.hpp"
+
+#pragma pop_macro("D")
+#pragma pop_macro("Real")
+#pragma pop_macro("real")
 
 #ifdef __NVCC__
 #pragma nv_diagnostic pop

@@ -122,6 +122,40 @@ class WindowsNames:
 
 
 @dataclasses.dataclass
+class HostMacros:
+    """Macros that hosts have, defined before everything else: they mean the same afterwards."""
+    name: str
+    compiler: list
+
+    def attempt(self, folder):
+        header = folder / "one" / "lumis" / "lumis.hpp"
+        run([sys.executable, ROOT / "cmake" / "single_header.py", header])
+        for include in (ROOT / "include", header.parent.parent):
+            batch = ["-DBATCH"] if (include / "lumis" / "batch").exists() else []
+            for macros in ("OBJECTS", "FUNCTIONS"):
+                run([*self.compiler, BASE[0], f"-I{include}", *batch, f"-D{macros}", "-fsyntax-only", HERE / "host_macros.cpp"])
+        return "compiles"
+
+
+@dataclasses.dataclass
+class FirstEstimate:
+    """The first example prints what it should with each of these lists of flags."""
+    name: str
+    compiler: list
+    variants: list
+
+    def attempt(self, folder):
+        for flags in self.variants:
+            compiles_here(self.compiler, folder, *flags)
+            program = folder / "first_estimate"
+            run([*self.compiler, *BASE, *flags, ROOT / "examples" / "01_first_estimate.cpp", "-o", program])
+            printed = run([program])
+            if printed != (ROOT / "examples" / "01_first_estimate.txt").read_text():
+                raise Failed(f"With {' '.join(flags)} it prints {printed}")
+        return f"runs with {len(self.variants)} sets of flags"
+
+
+@dataclasses.dataclass
 class WithoutExceptions:
     name: str
     compiler: list
@@ -226,6 +260,15 @@ class OlderStandard:
         return f"says so, in each of {len(headers)} headers"
 
 
+def glm_forced(*names):
+    return [f"-DGLM_FORCE_{name}" for name in names]
+
+
+# XYZW_ONLY leaves no room for SWIZZLE.
+GLM_TOGETHER = [glm_forced("XYZW_ONLY", "EXPLICIT_CTOR", "DEFAULT_ALIGNED_GENTYPES", "INTRINSICS", "SIZE_T_LENGTH", "CTOR_INIT"),
+                glm_forced("SWIZZLE")]
+GLM_ALONE = [glm_forced(name) for name in ("XYZW_ONLY", "EXPLICIT_CTOR", "DEFAULT_ALIGNED_GENTYPES", "INTRINSICS", "SWIZZLE",
+                                           "SIZE_T_LENGTH", "CTOR_INIT")]
 ZIG = ["python3", "-m", "ziglang", "c++"]
 PLACES = [
     WindowsNames("windows-names", ["g++"]),
@@ -237,6 +280,14 @@ PLACES = [
     SingleHeader("single-header/clang++", ["clang++"]),
     OlderStandard("older-standard/g++", ["g++"]),
     OlderStandard("older-standard/clang++", ["clang++"]),
+    HostMacros("host-macros/g++", ["g++"]),
+    HostMacros("host-macros/clang++", ["clang++"]),
+    FirstEstimate("glm-macros/g++", ["g++"], GLM_TOGETHER),
+    FirstEstimate("glm-macros/clang++", ["clang++"], GLM_TOGETHER),
+    FirstEstimate("glm-macros/alone/g++", ["g++"], GLM_ALONE),
+    FirstEstimate("glm-macros/alone/clang++", ["clang++"], GLM_ALONE),
+    FirstEstimate("newer-standard/g++", ["g++"], [["-std=c++23"]]),
+    FirstEstimate("newer-standard/libc++", ["clang++"], [["-std=c++2b", "-stdlib=libc++"]]),
     Place("no-vectors", ["g++"], ["-DLUMIS_NO_VECTORS"], []),
     Place("avx512/g++", ["g++"], ["-march=x86-64-v4"],
           [] if "avx512bw" in pathlib.Path("/proc/cpuinfo").read_text() else None),

@@ -7,6 +7,14 @@
 // to a few units in the last place: compilers fuse multiplications and additions differently.
 #pragma once
 
+// Macros of a host's that are names here are set aside up to the last line.
+#pragma push_macro("D")
+#pragma push_macro("Real")
+#pragma push_macro("real")
+#undef D
+#undef Real
+#undef real
+
 #include "lumis/combine/heuristics.hpp"
 #include "lumis/core/assert.hpp"
 #include "lumis/core/detail/for_each_index.hpp"
@@ -257,3 +265,7 @@ void mis_weight_n(const H& heuristic, std::type_identity_t<std::span<const T>> o
 }
 
 }  // namespace lumis::LUMIS_ISA
+
+#pragma pop_macro("D")
+#pragma pop_macro("Real")
+#pragma pop_macro("real")
