@@ -1,0 +1,69 @@
+// examples/embree_host with Lumis's parts and with the textbook's: error x time of the room, for direct light and for paths.
+//
+//     embree_host_parts [width [samples a pixel]]
+#include "textbook/host_parts.hpp"
+
+#include "adaptors.hpp"
+#include "image.hpp"
+#include "render.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+
+namespace {
+
+constexpr int images = 64;
+
+struct Cost {
+    double error = 0, seconds = 0;  // relative mean squared error of one image, by how much independent ones differ
+};
+
+// The parts take turns, so that what else the machine does slows both.
+template <class... Parts>
+std::array<Cost, sizeof...(Parts)> costs(const host::Scene& scene, const host::View& view, int samples, int bounces,
+                                         const Parts&... parts) {
+    using Moments = std::vector<lumis::RunningMoments<float>>;
+    std::array<Cost, sizeof...(Parts)> result;
+    std::array<Moments, sizeof...(Parts)> moments;
+    moments.fill(Moments(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height)));
+    for (int i = 0; i < images; ++i) {
+        std::size_t part = 0;
+        const auto add = [&](const auto& these) {
+            const auto start = std::chrono::steady_clock::now();
+            const auto image = render(scene, these, view, samples, bounces, static_cast<std::uint64_t>(i));
+            result[part].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            for (std::size_t k = 0; k < image.size(); ++k) moments[part][k].add(host::luminance(image[k]));
+            ++part;
+        };
+        (add(parts), ...);
+    }
+    for (std::size_t part = 0; part < sizeof...(Parts); ++part) {
+        double variance = 0, squared = 0;
+        for (const auto& m : moments[part]) variance += m.variance(), squared += m.mean() * m.mean();
+        result[part].error = variance / squared;
+        result[part].seconds /= images;
+    }
+    return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    host::View view = host::room_view;
+    view.width = argc > 1 ? std::atoi(argv[1]) : 160, view.height = view.width * 3 / 4;
+    const int samples = argc > 2 ? std::atoi(argv[2]) : 16;
+    const host::Scene scene{LUMIS_EXAMPLES_DATA "/room.obj",
+                            host::read_sky(LUMIS_EXAMPLES_DATA "/venice_sunset_1k.hdr")};
+    const textbook::HostParts textbook{scene};
+    const host::LumisParts lumis{scene};
+    std::printf("| | parts | relative MSE | seconds | error x time |\n| --- | --- | ---: | ---: | ---: |\n");
+    for (const int bounces : {1, 8}) {
+        const auto [books, ours] = costs(scene, view, samples, bounces, textbook, lumis);
+        const auto row = [&](const char* name, const Cost& cost) {
+            std::printf("| %s | %s | %.3g | %.3g | %.2f |\n", bounces == 1 ? "direct light" : "8 bounces", name,
+                        cost.error, cost.seconds, cost.error * cost.seconds / (books.error * books.seconds));
+        };
+        row("textbook", books), row("Lumis", ours);
+    }
+}

@@ -1,0 +1,145 @@
+// examples/embree_host against the tracer, which has its own loop, its own intersections, its own materials and other
+// estimators; and in a furnace, where the answer is known for paths of any length.
+#include "adaptors.hpp"
+#include "block_moments.hpp"
+#include "coarse_sky.hpp"
+#include "folder.hpp"
+#include "render.hpp"
+#include "scene_renderer.hpp"
+#include "textbook/host_parts.hpp"
+
+#include <fstream>
+
+namespace {
+
+const std::string room = LUMIS_EXAMPLES_DATA "/room.obj";
+constexpr host::View view{host::room_view.position, host::room_view.target, host::room_view.degrees, 32, 24, false};
+
+host::Sky sky_of(const tracer::Image& image) {
+    host::Sky sky{image.width, image.height, {}};
+    for (const glm::vec3& pixel : image.pixels) sky.texels.push_back(host::from_lumis(pixel));
+    return sky;
+}
+
+// Moments of independent images, of a few samples each.
+template <class Parts>
+BlockMoments host_moments(const host::Scene& scene, int samples, int bounces) {
+    const Parts parts{scene};
+    BlockMoments moments{view.width, view.height};
+    for (std::uint64_t seed = 0; seed < 32; ++seed) {
+        tracer::Image image{view.width, view.height, {}};
+        for (const host::Vec& pixel : render(scene, parts, view, samples, bounces, seed)) {
+            image.pixels.push_back(host::to_lumis(pixel));
+        }
+        moments.add(image);
+    }
+    return moments;
+}
+
+// The same room for the tracer. The corners of its faces, which are parallelograms, are read from the file once more.
+class Room {
+  public:
+    using Material = std::variant<tracer::Diffuse, tracer::Coated>;
+
+    Room(const host::Scene& scene, const tracer::Image& sky) : sky_{sky}, map_{sky.width, sky.height, luminances(sky)} {
+        for (const host::Material& m : scene.materials) {
+            const glm::vec3 albedo = host::to_lumis(m.albedo);
+            materials_.push_back(m.alpha > 0 ? Material{tracer::Coated{albedo, m.alpha, m.index}}
+                                             : Material{tracer::Diffuse{albedo}});
+        }
+        std::ifstream file{room};
+        std::vector<glm::vec3> corners;
+        std::vector<float> powers;
+        std::size_t faces = 0;
+        for (std::string word; file >> word;) {
+            if (word == "v") {
+                file >> corners.emplace_back().x >> corners.back().y >> corners.back().z;
+            } else if (word == "f") {
+                std::array<std::size_t, 4> face{};
+                for (std::size_t& corner : face) file >> corner;
+                const glm::vec3 a = corners[face[0] - 1];
+                const lumis::Parallelogram<float> shape{a, corners[face[1] - 1] - a, corners[face[3] - 1] - a};
+                const std::size_t material = scene.triangles[2 * faces++].material;  // two triangles a face
+                const glm::vec3 radiance = host::to_lumis(scene.materials[material].emission);
+                geometry_.add(shape, {material, radiance});
+                if (radiance == glm::vec3{0}) continue;
+                lamps_.push_back(shape);
+                powers.push_back(1);
+            }
+        }
+        geometry_.commit();
+        choice_.emplace(powers);
+    }
+
+    [[nodiscard]] const tracer::Geometry& geometry() const { return geometry_; }
+    [[nodiscard]] const Material& material(const tracer::Surface& surface) const {
+        return materials_[surface.material];
+    }
+    [[nodiscard]] glm::vec3 background(const glm::vec3& w) const {
+        const auto uv = lumis::latlong_from_direction(w);
+        const auto at = [](float t, int size) {
+            return std::min(static_cast<int>(t * static_cast<float>(size)), size - 1);
+        };
+        return sky_.pixels[static_cast<std::size_t>(at(uv.y, sky_.height) * sky_.width + at(uv.x, sky_.width))];
+    }
+    [[nodiscard]] auto lights_at(const tracer::Vertex& vertex) const {
+        const auto lamp = [this, point = vertex.position](std::size_t i) { return lumis::AreaLight{lamps_[i], point}; };
+        const lumis::LightSet lamps{lamp, *choice_};
+        return std::tuple{tracer::Light<decltype(lamps)>{lamps, true},
+                          tracer::Light<const lumis::EnvironmentMap<float>&>{map_, true}};
+    }
+
+  private:
+    static std::vector<float> luminances(const tracer::Image& sky) {
+        std::vector<float> result;
+        for (const glm::vec3& pixel : sky.pixels) result.push_back(tracer::luminance(pixel));
+        return result;
+    }
+
+    tracer::Image sky_;
+    lumis::EnvironmentMap<float> map_;
+    std::vector<Material> materials_;
+    std::vector<lumis::Parallelogram<float>> lamps_;
+    std::optional<lumis::AliasTable<float>> choice_;
+    tracer::Geometry geometry_;
+};
+
+}  // namespace
+
+TEST_CASE("the host's direct light is the tracer's") {
+    const tracer::Image sky = coarse_sky();
+    const host::Scene scene{room, sky_of(sky)};
+    REQUIRE(scene.lights.size() == 6);
+    const tracer::Camera camera{host::to_lumis(view.position), host::to_lumis(view.target), {0, 1, 0}, view.degrees};
+    const tracer::SceneRenderer<Room, std::tuple<tracer::Power>> renderer{
+        Room{scene, sky}, {view.width, view.height, ""}, camera};
+    BlockMoments expected{view.width, view.height};
+    for (std::uint64_t pass = 0; pass < 32; ++pass) {
+        tracer::Film film{view.width, view.height};
+        renderer.add_pass(film, "power", 16, 1, pass);
+        expected.add(film.image());
+    }
+    require_same_means(host_moments<host::LumisParts>(scene, 8, 1), expected, 2, "Lumis");
+    require_same_means(host_moments<textbook::HostParts>(scene, 8, 1), expected, 2, "textbook");
+}
+
+// Where all surfaces emit half of what the sky does, and reflect the other half, everything looks like the sky.
+TEST_CASE("the host's paths see no furnace") {
+    const Folder folder;
+    std::ifstream obj{room};
+    std::ofstream furnace{folder.file("room.obj")}, materials{folder.file("room.mtl")};
+    furnace << obj.rdbuf() << std::flush;
+    for (const char* name : {"floor", "white", "red", "blue", "slab", "lamp", "strip", "spark"}) {
+        materials << "newmtl " << name << "\nKd 0.5 0.5 0.5\nKe 1 1 1\n";
+    }
+    materials << std::flush;
+    const host::Scene scene{folder.file("room.obj"), {1, 1, {host::Vec{2, 2, 2}}}};
+    REQUIRE(scene.lights.size() == scene.triangles.size());
+    BlockMoments moments = host_moments<host::LumisParts>(scene, 8, 1000);
+    BlockMoments exact{view.width, view.height};
+    exact.add({view.width, view.height,
+               std::vector<glm::vec3>(static_cast<std::size_t>(view.width * view.height), glm::vec3{2})});
+    exact.add({view.width, view.height,
+               std::vector<glm::vec3>(static_cast<std::size_t>(view.width * view.height), glm::vec3{2})});
+    require_same_means(exact, moments, 1, "furnace");
+}
