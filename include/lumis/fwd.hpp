@@ -103,6 +103,8 @@ template <std::floating_point T>
 class DirectionalLight;
 enum class Interpolation;
 struct EnvironmentOptions;
+template <class Point, Real Scalar>
+struct MapSample;
 template <std::floating_point T>
 class EnvironmentMap;
 template <std::floating_point T>

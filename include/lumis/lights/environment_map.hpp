@@ -46,6 +46,15 @@ struct EnvironmentOptions {
     bool mis_compensation = false;
 };
 
+// A sample of a map with where on the map it is.
+template <class Point, Real Scalar>
+struct MapSample {
+    Point value{};
+    Scalar pdf{};
+    Scalar distance{};
+    glm::vec<2, Scalar> uv{};
+};
+
 namespace detail {
 
 // What a map keeps of each row. Heights are versines, 1 - |cos(theta)| from the nearer pole: there 1 - cos of a 4K map's
@@ -116,6 +125,19 @@ class BasicEnvironmentMap {
         const Drawn<R> drawn = draw(u);
         return {direction_from_latlong(drawn.turn, drawn.versine, drawn.pole), drawn.pdf,
                 std::numeric_limits<T>::infinity()};
+    }
+
+    // The same with the point (u, v) of the map that was drawn, for a host that looks the radiance up there: an arc tangent
+    // less than latlong_from_direction(value). It lies in the texel drawn, whose density pdf_at(uv) is.
+    template <RealOf<T> R = T>
+    [[nodiscard]] LUMIS_HD MapSample<Direction<R>, R> sample_uv(glm::vec<2, R> u) const noexcept {
+        const Drawn<R> drawn = draw(u);
+        // Twice the fraction of a turn between the direction and +y.
+        const R v = 2 * signed_turn_of(R(drawn.pole * (1 - drawn.versine)), sine_of_versine(drawn.versine));
+        return {direction_from_latlong(drawn.turn, drawn.versine, drawn.pole),
+                drawn.pdf,
+                std::numeric_limits<T>::infinity(),
+                {drawn.turn, v}};
     }
 
     // Forced inline so that w stays in registers: loaded from where it has just been stored, it would delay every look-up,
