@@ -29,6 +29,17 @@ TEST_CASE("a sky") {
     CHECK(sky.sample({0.5f, 0.5f}).pdf > 0);
 }
 
+TEST_CASE("a sample's point of the map") {
+    const lumis::EnvironmentMap sky{width, height, one_texel(40, 5)};
+    const auto texel_at = [](const vec2& uv) { return is_in_texel(uv, 40, 5) ? 1.0f : 0.0f; };
+    const vec2 u{0.2f, 0.7f};
+
+    const auto drawn = sky.sample_uv(u);
+    const float radiance = texel_at(drawn.uv);
+
+    CHECK(radiance == 1);
+}
+
 TEST_CASE("a turned sky") {
     const lumis::EnvironmentMap sky{width, height, one_texel(40, 5)};
     const float angle = 1;
@@ -55,7 +66,7 @@ TEST_CASE("a sky of the host's own convention") {
 
     const lumis::Frame z_up{vec3{1, 0, 0}, vec3{0, 0, 1}, vec3{0, -1, 0}};
     const auto light = in_frame(z_up, sky);
-    const lumis::Frame mirrored{vec3{1, 0, 0}, vec3{0, 0, 1}, vec3{0, 1, 0}};  // if they turn anticlockwise
+    const lumis::Frame mirrored{vec3{1, 0, 0}, vec3{0, 0, 1}, vec3{0, 1, 0}};  // if they turn the other way
 
     for (const float u : {0.1f, 0.3f, 0.9f}) {
         CHECK(is_in_texel(host_uv(light.sample({u, 1 - u}).value), 40, 5));
