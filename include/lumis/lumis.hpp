@@ -40,6 +40,7 @@
 #include "lumis/lights/light_set.hpp"
 #include "lumis/lights/pdf_from_hit.hpp"
 #include "lumis/lights/point_light.hpp"
+#include "lumis/lights/surface_area.hpp"
 #include "lumis/lights/surface_light.hpp"
 #include "lumis/microfacets/ggx.hpp"
 #include "lumis/microfacets/ggx_bounded_reflection.hpp"

@@ -22,6 +22,11 @@ LUMIS_HD void put(float*& out, const glm::vec<N, float>& x) {
     for (int i = 0; i < N; ++i) *out++ = x[i];
 }
 
+LUMIS_HD void put(float*& out, const SurfaceRay<float>& ray) {
+    put(out, ray.position);
+    put(out, ray.direction);
+}
+
 // A point and its density, both from sample and from pdf, the distance of a light, and what invert makes of the point.
 template <class S>
 struct Strategies {
@@ -93,6 +98,8 @@ bool check_lights() {
     const Sphere<float> sphere{{1, 1, 4}, 0.7f};
     bool good = check_shapes<ByArea>("by area", triangle, parallelogram, disk, sphere);
     good &= check_shapes<BySolidAngle>("by solid angle", triangle, parallelogram, sphere);
+    good &= check("surface area", SurfaceArea{triangle}) & check("surface area", SurfaceArea{disk});
+    good &= check("surface area", SurfaceArea{sphere}) & check("emission", SurfaceEmission{parallelogram, Sides::Both});
     good &= check("point light", PointLight<float>{{1, 2, 3}, {0, 0, 0.5f}});
     good &= check("directional light", DirectionalLight<float>{{0.6f, 0, 0.8f}});
     return good;

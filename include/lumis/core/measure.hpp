@@ -9,10 +9,11 @@
 namespace lumis::LUMIS_ISA {
 
 namespace measure {
-struct SolidAngle {};  // of directions, in steradians
-struct Area {};        // of surface points, in the scene's units squared
-struct Lebesgue {};    // of points of [0,1]^d or R^d
-struct Counting {};    // of indices: the density is a probability
+struct SolidAngle {};      // of directions, in steradians
+struct Area {};            // of surface points, in the scene's units squared
+struct AreaSolidAngle {};  // of rays that leave a surface: of their starts by area, times of their directions
+struct Lebesgue {};        // of points of [0,1]^d or R^d
+struct Counting {};        // of indices: the density is a probability
 }  // namespace measure
 
 // The one place where a density per area becomes one per solid angle: pdf_area distance^2 / |cos_light|, with the

@@ -31,6 +31,14 @@ struct SurfaceLightSample {
     SurfacePoint<Scalar> surface{};
 };
 
+// A point drawn of a surface, or a ray that leaves it, and the surface there.
+template <class Point, Real Scalar>
+struct SurfaceAreaSample {
+    Point value{};
+    Scalar pdf{};
+    SurfacePoint<Scalar> surface{};
+};
+
 // Where a direction meets a light; distance infinity: nowhere, and the surface point means nothing.
 template <Real R>
 struct LightHit {

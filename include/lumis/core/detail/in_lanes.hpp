@@ -85,7 +85,9 @@ template <class Drawn>
 [[nodiscard]] LUMIS_INLINE inline auto lane_of_sample(const Drawn& drawn, std::size_t i) noexcept {
     using Point = decltype(lane_of(drawn.value, i));
     using T = decltype(lane_of(drawn.pdf, i));
-    if constexpr (HasSurface<Drawn>) {
+    if constexpr (HasSurface<Drawn> && !HasDistance<Drawn>) {
+        return SurfaceAreaSample<Point, T>{lane_of(drawn.value, i), drawn.pdf[i], lane_of(drawn.surface, i)};
+    } else if constexpr (HasSurface<Drawn>) {
         return SurfaceLightSample<Point, T>{lane_of(drawn.value, i), drawn.pdf[i], drawn.distance[i],
                                             lane_of(drawn.surface, i)};
     } else if constexpr (HasDistance<Drawn>) {
@@ -136,14 +138,26 @@ template <Real R, class F, class X>
     return result;
 }
 
+// Samples in lanes that tell what Drawn does.
+template <class Drawn, class Point, class R>
+struct InLanes : std::type_identity<Sample<Point, R>> {};
+template <HasDistance Drawn, class Point, class R>
+struct InLanes<Drawn, Point, R> : std::type_identity<LightSample<Point, R>> {};
+template <HasSurface Drawn, class Point, class R>
+struct InLanes<Drawn, Point, R> : std::type_identity<SurfaceAreaSample<Point, R>> {};
+template <class Drawn, class Point, class R>
+    requires HasDistance<Drawn> && HasSurface<Drawn>
+struct InLanes<Drawn, Point, R> : std::type_identity<SurfaceLightSample<Point, R>> {
+};
+template <class Drawn, class Point, class R>
+using LaneSample = typename InLanes<Drawn, Point, R>::type;
+
 // draw(lane of u) for each lane, as one sample of S.
 template <class S, Real R, class Draw>
 [[nodiscard]] LUMIS_HD auto draw_each_lane(const glm::vec<S::dimensions, R>& u, Draw draw) {
     using First = decltype(draw(lane_of(u, 0)));
     constexpr bool has_distance = HasDistance<First>;
-    using Lights =
-        std::conditional_t<HasSurface<First>, SurfaceLightSample<PointOf<S, R>, R>, LightSample<PointOf<S, R>, R>>;
-    std::conditional_t<has_distance, Lights, Sample<PointOf<S, R>, R>> result;
+    LaneSample<First, PointOf<S, R>, R> result;
     for (std::size_t i = 0; i < R::size; ++i) {
         const auto drawn = draw(lane_of(u, i));
         put_lane(result.value, i, typename S::Point(drawn.value));

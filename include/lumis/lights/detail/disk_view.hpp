@@ -40,6 +40,8 @@ class DiskView {
     }
 
     [[nodiscard]] LUMIS_HD T area() const noexcept { return std::numbers::pi_v<scalar_of<T>> * radius_ * radius_; }
+    [[nodiscard]] LUMIS_HD T radius() const noexcept { return radius_; }
+    [[nodiscard]] LUMIS_HD const Frame<T>& frame() const noexcept { return frame_; }
 
     // u.x = 0 is the centre, u.y a fraction of a turn.
     template <RealOf<T> R = T>

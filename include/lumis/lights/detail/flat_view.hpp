@@ -27,6 +27,17 @@ template <class Shape, Real R>
     }
 }
 
+// The u of coordinates.
+template <class Shape, Real R>
+[[nodiscard]] LUMIS_INLINE inline glm::vec<2, R> flat_uniforms(const glm::vec<2, R>& at) noexcept {
+    if constexpr (FlatShape<Shape>::is_triangle) {
+        const R sum = at.x + at.y;
+        return {sum * sum, real::quotient_where(sum > 0, at.y, sum)};
+    } else {
+        return at;
+    }
+}
+
 // The point at coordinates, in world space.
 template <Real R, class T>
 [[nodiscard]] LUMIS_INLINE inline glm::vec<3, R> position_at(const Triangle<T>& shape,
@@ -70,6 +81,7 @@ class FlatView {
     }
 
     [[nodiscard]] LUMIS_HD T area() const noexcept { return area_; }
+    [[nodiscard]] LUMIS_HD const Direction<T>& normal() const noexcept { return normal_; }
 
     // u in [0,1]^2.
     template <RealOf<T> R = T>
@@ -110,11 +122,7 @@ class FlatView {
         const auto meets = real::abs(cos_light) > 0;
         const T s = real::quotient_where(meets, T(glm::dot(w, across_u_)), cos_light);
         const T t = real::quotient_where(meets, T(glm::dot(w, across_v_)), cos_light);
-        if constexpr (is_triangle) {
-            return {(s + t) * (s + t), real::quotient_where(s + t > 0, t, T(s + t))};
-        } else {
-            return {s, t};
-        }
+        return flat_uniforms<Shape>(glm::vec<2, T>{s, t});
     }
 
     // w: unit. By triple products (Moller and Trumbore 1997), which are compared before they are divided by the cosine. The
