@@ -192,6 +192,47 @@ TEST_CASE("an integrand takes the point or the sample and returns any value", "[
     CHECK(evaluations == 3);
 }
 
+TEST_CASE("an integrand may ask which technique drew its sample", "[multi_sample]") {
+    const lumis::PerfectReflection<float> mirror{lumis::Direction<float>{0, 0, 1}};
+    const auto combined = multi_sample(lumis::BalanceHeuristic{}, take(2, lumis::CosineHemisphere{}), take(1, mirror),
+                                       take(3, lumis::UniformHemisphere{}));
+    using Point = lumis::Direction<float>;
+    // The share of each technique, and that of the mirror's coefficient.
+    const auto check = [&](auto f) {
+        CountingUniforms<float> uniforms;
+        const glm::vec4 shares = combined.estimate(f, uniforms);
+        CHECK((shares[0] > 0 && shares[2] > 0));
+        CHECK(shares[1] == 1);
+        CHECK(shares[3] == 1);
+        const auto z = [](const auto& w, auto...) { return w.z; };
+        CountingUniforms<float> again;
+        CHECK(std::abs(shares[0] + shares[2] + 1 - combined.estimate(z, again)) <= 1e-5f);
+    };
+    const auto share = [](float z, std::size_t technique, bool is_delta) {
+        glm::vec4 result{0};
+        result[static_cast<int>(technique)] = z;
+        result[3] = is_delta ? 1 : 0;
+        return result;
+    };
+    check([&](const Point& w, auto technique, auto... is_delta) {
+        return share(w.z, technique, sizeof...(is_delta) > 0);
+    });
+    check([&](const lumis::AnySample auto& s, auto technique, auto... is_delta) {
+        return share(s.value.z, technique, sizeof...(is_delta) > 0);
+    });
+    struct Overloaded {
+        decltype(share) of;
+        glm::vec4 operator()(const Point& w, lumis::technique<0>) const { return of(w.z, 0, false); }
+        glm::vec4 operator()(const Point& w, lumis::technique<2>) const { return of(w.z, 2, false); }
+        glm::vec4 operator()(const Point& w, lumis::delta_t) const { return of(w.z, 1, true); }
+    };
+    check(Overloaded{share});
+    // One that takes the point alone is not told more.
+    CountingUniforms<float> uniforms;
+    CHECK(combined.estimate([](const Point&, auto... tags) { return sizeof...(tags) > 0 ? 1.0f : 0.0f; }, uniforms) ==
+          1);
+}
+
 TEST_CASE("where nothing is drawn the integrand is not asked", "[multi_sample]") {
     const lumis::PerfectReflection<float> below{lumis::Direction<float>{0, 0, -1}};
     const auto nothing = multi_sample(lumis::BalanceHeuristic{}, take(3, below));

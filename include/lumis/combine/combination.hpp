@@ -149,7 +149,7 @@ class Combination {
     [[nodiscard]] LUMIS_INLINE auto draw(F& f, const glm::vec<Nth<I>::dimensions, R>& u,
                                          const MaskOf<R>& selected = true) const {
         using S = Nth<I>;
-        if constexpr (takes_point<F, R, is_delta<I>> && detail::SamplesPoints<S>) {
+        if constexpr (takes_point<F, R, I> && detail::SamplesPoints<S>) {
             return contribution<I, R>(f, detail::sample_point_in<R>(strategy<I>(), u), selected);
         } else if constexpr (std::same_as<R, Scalar>) {
             return contribution<I, R>(f, detail::as_promised<Point, Scalar>(strategy<I>().sample(u)), selected);
@@ -175,33 +175,33 @@ class Combination {
     static constexpr std::size_t number_of_smooth = detail::number_of_smooth<First, Rest...>;
 
     // An integrand in lanes takes a point in lanes; any other is called with one.
-    template <class F, class R, bool is_delta>
+    template <class F, class R, std::size_t I>
     static constexpr bool takes_point =
-        Takes<F, Point, is_delta> || Takes<F, typename detail::PointIn<Point, Scalar, R>::type, is_delta>;
+        Takes<F, Point, is_delta<I>, I> || Takes<F, typename detail::PointIn<Point, Scalar, R>::type, is_delta<I>, I>;
 
     // Evaluates f where its weight is positive. A delta strategy's sample, and that of the only strategy with a density, has
     // weight 1. Lanes are evaluated all, if any of them has a weight.
     template <std::size_t I, Real R, class F, class Drawn>
     [[nodiscard]] LUMIS_INLINE auto contribution(F& f, const Drawn& sample,
                                                  [[maybe_unused]] const MaskOf<R>& selected) const {
-        constexpr bool only_point = takes_point<F, R, is_delta<I>>;
+        constexpr bool only_point = takes_point<F, R, I>;
         using Seen = std::remove_cvref_t<decltype(seen<I, only_point, R>(sample))>;
-        using Asked = detail::Asked<F, Seen, R, is_delta<I>>;
-        if constexpr (!IntegrandOfSamples<F, typename Asked::Sample, typename Asked::Scalar, is_delta<I>>) {
-            detail::require_integrand<F, typename Asked::Sample, typename Asked::Scalar, is_delta<I>>();
+        using Asked = detail::Asked<F, Seen, R, is_delta<I>, I>;
+        if constexpr (!IntegrandOfSamples<F, typename Asked::Sample, typename Asked::Scalar, is_delta<I>, I>) {
+            detail::require_integrand<F, typename Asked::Sample, typename Asked::Scalar, is_delta<I>, I>();
             return R{};
         } else {
             const R own = factors_[I] * sample.pdf;
             auto drawn = own > 0;
             if constexpr (!std::floating_point<R>) drawn = drawn && selected;
-            using Value = ValueOf<std::remove_cvref_t<decltype(detail::evaluate_in<is_delta<I>, R>(
+            using Value = ValueOf<std::remove_cvref_t<decltype(detail::evaluate_in<is_delta<I>, I, R>(
                                       f, seen<I, only_point, R>(sample), drawn))>,
                                   R>;
             if (!real::any(drawn)) return zero<Value>::value();
             const R divisor = detail::positive_divisor(drawn, own);
             if constexpr (is_delta<I> || number_of_smooth == 1) {
                 const auto& whole = seen<I, only_point, R>(sample);
-                decltype(auto) result = detail::evaluate_in<is_delta<I>, R>(f, whole, drawn);
+                decltype(auto) result = detail::evaluate_in<is_delta<I>, I, R>(f, whole, drawn);
                 return detail::selected(drawn, detail::quotient<Value>(result, divisor));
             } else {
                 const R weight = weight_given<I, R>(sample.value, [&] { return weighed(drawn, own); });
@@ -210,7 +210,7 @@ class Combination {
                     if (!real::any(drawn)) return zero<Value>::value();
                 }
                 const auto& whole = seen<I, only_point, R>(sample);
-                decltype(auto) result = detail::evaluate_in<false, R>(f, whole, drawn);
+                decltype(auto) result = detail::evaluate_in<false, I, R>(f, whole, drawn);
                 return detail::selected(drawn, detail::scaled<Value>(result, R(weight / divisor)));
             }
         }

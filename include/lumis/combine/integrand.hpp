@@ -1,6 +1,7 @@
 // What an estimator asks of an integrand: it takes a point or a whole sample, and returns something that can be summed.
 #pragma once
 
+#include "lumis/combine/technique.hpp"
 #include "lumis/combine/zero.hpp"
 #include "lumis/core/detail/in_lanes.hpp"
 #include "lumis/core/platform.hpp"
@@ -9,15 +10,22 @@
 #include "lumis/core/strategy.hpp"
 
 #include <concepts>
+#include <cstddef>
 #include <type_traits>
 #include <utility>
 
 namespace lumis::LUMIS_ISA {
 
-// An integrand is called with the point if it takes one, else with the whole sample. A point of a delta strategy comes
-// with a tag, which asks for the coefficient.
-template <class F, class Argument, bool is_delta>
-concept Takes = (is_delta ? std::invocable<F&, const Argument&, delta_t> : std::invocable<F&, const Argument&>);
+// An integrand is called with the point if it takes one, else with the whole sample: f(x) or, if it does not take that,
+// f(x, technique<I>{}), which tells it who drew. A delta strategy asks for the coefficient by f(x, technique<I>{}, delta) or,
+// if it does not take that, by f(x, delta).
+template <class F, class Argument, std::size_t I>
+concept TakesTechnique = !std::invocable<F&, const Argument&> && std::invocable<F&, const Argument&, technique<I>>;
+template <class F, class Argument, std::size_t I>
+concept TakesDeltaTechnique = std::invocable<F&, const Argument&, technique<I>, delta_t>;
+template <class F, class Argument, bool is_delta, std::size_t I = 0>
+concept Takes = (is_delta && (TakesDeltaTechnique<F, Argument, I> || std::invocable<F&, const Argument&, delta_t>)) ||
+                (!is_delta && (std::invocable<F&, const Argument&> || TakesTechnique<F, Argument, I>));
 
 // Value, times a Scalar, is a Value again, or converts to one.
 template <class Value, class Scalar>
@@ -38,33 +46,46 @@ using ValueOf = std::conditional_t<std::integral<Result>, R, Result>;
 
 namespace detail {
 
-template <bool is_delta, class F, class Drawn>
-[[nodiscard]] LUMIS_HD constexpr decltype(auto) evaluate(F& f, const Drawn& sample) {
-    constexpr bool takes_point = Takes<F, decltype(sample.value), is_delta>;
-    if constexpr (is_delta && takes_point) {
-        return f(sample.value, delta);
+// f(x) with the tags that it takes.
+template <bool is_delta, std::size_t I, class F, class X>
+[[nodiscard]] LUMIS_HD constexpr decltype(auto) call(F& f, const X& x) {
+    if constexpr (is_delta && TakesDeltaTechnique<F, X, I>) {
+        return f(x, technique<I>{}, delta);
     } else if constexpr (is_delta) {
-        return f(sample, delta);
-    } else if constexpr (takes_point) {
-        return f(sample.value);
+        return f(x, delta);
+    } else if constexpr (TakesTechnique<F, X, I>) {
+        return f(x, technique<I>{});
     } else {
-        return f(sample);
+        return f(x);
+    }
+}
+
+template <bool is_delta, std::size_t I, class F, class Drawn>
+[[nodiscard]] LUMIS_HD constexpr decltype(auto) evaluate(F& f, const Drawn& sample) {
+    if constexpr (Takes<F, decltype(sample.value), is_delta, I>) {
+        return call<is_delta, I>(f, sample.value);
+    } else {
+        return call<is_delta, I>(f, sample);
     }
 }
 
 // What evaluate returns. It is not asked: its body must not be made for lanes that F seems to take, see SamplesLanes.
-template <class F, class Drawn, bool is_delta>
+template <class F, class Drawn, bool is_delta, std::size_t I>
 [[nodiscard]] consteval auto result_of() {
-    constexpr bool takes_point = Takes<F, decltype(Drawn::value), is_delta>;
+    constexpr bool takes_point = Takes<F, decltype(Drawn::value), is_delta, I>;
     using Argument = std::conditional_t<takes_point, decltype(Drawn::value), Drawn>;
-    if constexpr (is_delta) {
+    if constexpr (is_delta && TakesDeltaTechnique<F, Argument, I>) {
+        return std::type_identity<std::invoke_result_t<F&, const Argument&, technique<I>, delta_t>>{};
+    } else if constexpr (is_delta) {
         return std::type_identity<std::invoke_result_t<F&, const Argument&, delta_t>>{};
+    } else if constexpr (TakesTechnique<F, Argument, I>) {
+        return std::type_identity<std::invoke_result_t<F&, const Argument&, technique<I>>>{};
     } else {
         return std::type_identity<std::invoke_result_t<F&, const Argument&>>{};
     }
 }
-template <class F, class Drawn, bool is_delta>
-using ResultOf = std::remove_cvref_t<typename decltype(result_of<F, Drawn, is_delta>())::type>;
+template <class F, class Drawn, bool is_delta, std::size_t I>
+using ResultOf = std::remove_cvref_t<typename decltype(result_of<F, Drawn, is_delta, I>())::type>;
 
 // The number T, or as many lanes of T as R has.
 template <class R, class T>
@@ -131,11 +152,11 @@ template <class Value, class Result, Real R>
 }  // namespace detail
 
 // F can be integrated by samples of type Drawn.
-template <class F, class Drawn, class Scalar, bool is_delta = false>
-concept IntegrandOfSamples = (Takes<F, decltype(Drawn::value), is_delta> || Takes<F, Drawn, is_delta>)&&requires {
-    requires detail::Scales<ValueOf<detail::ResultOf<F, Drawn, is_delta>, Scalar>, Scalar>;
-    requires AddsUp<ValueOf<detail::ResultOf<F, Drawn, is_delta>, Scalar>>;
-    requires HasZero<ValueOf<detail::ResultOf<F, Drawn, is_delta>, Scalar>>;
+template <class F, class Drawn, class Scalar, bool is_delta = false, std::size_t I = 0>
+concept IntegrandOfSamples = (Takes<F, decltype(Drawn::value), is_delta, I> || Takes<F, Drawn, is_delta, I>)&&requires {
+    requires detail::Scales<ValueOf<detail::ResultOf<F, Drawn, is_delta, I>, Scalar>, Scalar>;
+    requires AddsUp<ValueOf<detail::ResultOf<F, Drawn, is_delta, I>, Scalar>>;
+    requires HasZero<ValueOf<detail::ResultOf<F, Drawn, is_delta, I>, Scalar>>;
 };
 
 // F can be integrated by a strategy of type S.
@@ -146,18 +167,20 @@ concept Integrand = Strategy<S> && IntegrandOfSamples<F, decltype(std::declval<c
 namespace detail {
 
 // Says what F lacks to be integrated by samples of type Drawn.
-template <class F, class Drawn, class Scalar, bool is_delta>
+template <class F, class Drawn, class Scalar, bool is_delta, std::size_t I>
 consteval void require_integrand() {
-    constexpr bool takes = Takes<F, decltype(Drawn::value), is_delta> || Takes<F, Drawn, is_delta>;
+    constexpr bool takes = Takes<F, decltype(Drawn::value), is_delta, I> || Takes<F, Drawn, is_delta, I>;
     if constexpr (!takes) {
-        static_assert(takes || is_delta, "an integrand takes the point, f(x), or the whole sample, f(sample)");
+        static_assert(takes || is_delta,
+                      "an integrand takes the point, f(x), or the whole sample, f(sample); it may take "
+                      "lumis::technique<I> as well");
         static_assert(takes || !is_delta,
                       "a delta strategy asks the integrand for its coefficient: f(x, lumis::delta)");
-    } else if constexpr (std::is_void_v<ResultOf<F, Drawn, is_delta>>) {
-        static_assert(!std::is_void_v<ResultOf<F, Drawn, is_delta>>,
+    } else if constexpr (std::is_void_v<ResultOf<F, Drawn, is_delta, I>>) {
+        static_assert(!std::is_void_v<ResultOf<F, Drawn, is_delta, I>>,
                       "an integrand returns its value, but this one returns void");
     } else {
-        using Value = ValueOf<ResultOf<F, Drawn, is_delta>, Scalar>;
+        using Value = ValueOf<ResultOf<F, Drawn, is_delta, I>, Scalar>;
         static_assert(Scales<Value, Scalar> && AddsUp<Value>,
                       "an integrand's value, times a number, is one of the same type, and so is a sum of two; one that "
                       "returns an expression template says what value it stands for: -> Eigen::Array3f");
@@ -186,36 +209,36 @@ concept OfNumbers = requires {
 
 // An integrand that is written for a Real: given lanes, it returns something that is made of lanes as well. Any other is
 // called for one lane after the other.
-template <class F, class Drawn, class R, bool is_delta>
-concept WorksInLanes = IntegrandOfSamples<F, Drawn, R, is_delta> && !OfNumbers<ResultOf<F, Drawn, is_delta>>;
+template <class F, class Drawn, class R, bool is_delta, std::size_t I>
+concept WorksInLanes = IntegrandOfSamples<F, Drawn, R, is_delta, I> && !OfNumbers<ResultOf<F, Drawn, is_delta, I>>;
 
 // What F is called with, given a sample: the sample itself, or one lane of it.
-template <class F, class Drawn, class R, bool is_delta>
+template <class F, class Drawn, class R, bool is_delta, std::size_t I>
 struct Asked {
     using Sample = Drawn;
     using Scalar = R;
 };
-template <class F, class Drawn, class R, bool is_delta>
-    requires(!std::floating_point<R> && !WorksInLanes<F, Drawn, R, is_delta>)
-struct Asked<F, Drawn, R, is_delta> {
+template <class F, class Drawn, class R, bool is_delta, std::size_t I>
+    requires(!std::floating_point<R> && !WorksInLanes<F, Drawn, R, is_delta, I>)
+struct Asked<F, Drawn, R, is_delta, I> {
     using Sample = decltype(lane_of_sample(std::declval<const Drawn&>(), 0));
     using Scalar = scalar_of<R>;
 };
 
 // f at a sample, where `drawn` holds. An integrand in lanes is called for all of them; what it returns in the others is
 // dropped by selected.
-template <bool is_delta, Real R, class F, class Drawn>
+template <bool is_delta, std::size_t I, Real R, class F, class Drawn>
 [[nodiscard]] LUMIS_INLINE inline decltype(auto) evaluate_in(F& f, const Drawn& sample,
                                                              [[maybe_unused]] const MaskOf<R>& drawn) {
-    if constexpr (std::floating_point<R> || WorksInLanes<F, Drawn, R, is_delta>) {
-        return evaluate<is_delta>(f, sample);
+    if constexpr (std::floating_point<R> || WorksInLanes<F, Drawn, R, is_delta, I>) {
+        return evaluate<is_delta, I>(f, sample);
     } else {
-        using Value = ResultOf<F, decltype(lane_of_sample(sample, 0)), is_delta>;
+        using Value = ResultOf<F, decltype(lane_of_sample(sample, 0)), is_delta, I>;
         static_assert(OfNumbers<Value>,
                       "lanes of estimates are summed for integrands that take lanes, or return a number or a glm::vec");
         auto result = zero<typename ValueIn<Value, R>::type>::value();
         for (std::size_t i = 0; i < R::size; ++i) {
-            if (drawn[i]) put_lane(result, i, evaluate<is_delta>(f, lane_of_sample(sample, i)));
+            if (drawn[i]) put_lane(result, i, evaluate<is_delta, I>(f, lane_of_sample(sample, i)));
         }
         return result;
     }

@@ -20,7 +20,7 @@ class MultiSample : public Combination<H, S...> {
     // An unbiased estimate of the integral of f, of the type that f returns; integers count as Scalar. f(x) returns a number,
     // a glm::vec, or any type that adds to itself, scales by a float or a double, and has a lumis::zero. It may take the
     // whole sample instead, f(sample), if it cannot be called with the point alone; a delta strategy calls
-    // f(x, lumis::delta), with weight 1.
+    // f(x, lumis::delta), with weight 1. What takes technique<I> as well is told which technique drew, see Takes.
     //
     // A source that yields Lanes of Scalar makes an estimate in each lane. f then gets points in lanes; one that is written
     // for numbers is called for each lane. A type of one's own offers select(condition, a, b).

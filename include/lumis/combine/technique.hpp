@@ -16,6 +16,10 @@
 
 namespace lumis::LUMIS_ISA {
 
+// Tells an integrand which technique drew its point: an index, as a constant.
+template <std::size_t I>
+struct technique : std::integral_constant<std::size_t, I> {};
+
 // std::reference_wrapper of a strategy, without the header that defines it.
 template <class W>
 concept StrategyReference = requires(const W wrapper) {
