@@ -232,6 +232,7 @@ class Combination {
     template <std::size_t I, bool only_point, Real R, class Drawn>
     [[nodiscard]] LUMIS_HD decltype(auto) seen(const Drawn& sample) const noexcept {
         constexpr bool is_delta_light = is_delta<I> && detail::DrawsDistance<Nth<I>>;
+        // In order of precedence. NOLINTNEXTLINE(bugprone-branch-clone)
         if constexpr (only_point || size == 1 || is_delta_light) {
             return (sample);
         } else if constexpr (detail::KnowSurface<S0, std::remove_cvref_t<Rest>...>) {

@@ -38,6 +38,7 @@ struct Pearson {
 // Pearson's statistic over (expected, observed), the thin ones pooled.
 [[nodiscard]] inline Pearson pearson(const std::vector<std::pair<double, double>>& counts, double thinnest) {
     std::vector<double> expected;
+    expected.reserve(counts.size());
     for (const auto& count : counts) expected.push_back(count.first);
     const auto [pool_of, size] = pools(expected, thinnest);
     std::vector<std::pair<double, double>> pooled(size + 1);

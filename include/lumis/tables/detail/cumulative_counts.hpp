@@ -145,6 +145,7 @@ Dealt deal_counts(std::span<double> weights, auto start_of) {
     const double others = all - positive, others_of_weight = before > 0 ? others / before : 0;
     for (std::size_t i = 0; i < end; ++i) {
         const double share = real::lesser(weights[i] * others_of_weight, others);
+        // Truncated, not rounded by a call: a share is never negative. NOLINTNEXTLINE(bugprone-incorrect-roundings)
         start_of(i) += static_cast<std::uint32_t>(static_cast<std::int32_t>(share + 0.5));
     }
     // Behind the last positive weight none is left, whatever has been rounded on the way there.
