@@ -63,15 +63,15 @@ class LumisParts {
             return {direction, chosen.pdf * drawn.pdf, drawn.distance, scene_.sky.radiance(direction)};
         }
         const Triangle& triangle = *scene_.lights[chosen.value];
-        const auto drawn = as_seen_from(point, triangle).sample(u);
+        const auto drawn = lumis::AreaLight{shape_of(triangle), to_lumis(point)}.sample(u);
         return {from_lumis(drawn.value), chosen.pdf * drawn.pdf, drawn.distance, scene_.material(triangle).emission};
     }
 
     // The density with which draw_light, at the ray's origin, draws what the ray has met: a light, or the sky.
     [[nodiscard]] float light_pdf(const Vec& origin, const Vec& direction, const Hit& hit) const {
         const float cosine = dot(hit.normal, direction);  // of the geometric normal: densities are of true areas
-        return choice_.pdf(hit.triangle->light) *
-               as_seen_from(origin, *hit.triangle).pdf_from_hit(hit.distance, cosine);
+        const float pdf = lumis::pdf_from_hit(shape_of(*hit.triangle), to_lumis(origin), hit.distance, cosine);
+        return choice_.pdf(hit.triangle->light) * pdf;
     }
     [[nodiscard]] float sky_pdf(const Vec& direction) const {
         return choice_.pdf(scene_.lights.size()) * sky_.pdf(to_lumis(direction));
@@ -92,9 +92,7 @@ class LumisParts {
     }
 
   private:
-    static lumis::AreaLight<lumis::Triangle<float>> as_seen_from(const Vec& point, const Triangle& t) {
-        return {{to_lumis(t.a), to_lumis(t.b), to_lumis(t.c)}, to_lumis(point)};
-    }
+    static lumis::Triangle<float> shape_of(const Triangle& t) { return {to_lumis(t.a), to_lumis(t.b), to_lumis(t.c)}; }
     static std::vector<float> luminances(const Sky& sky) {
         std::vector<float> result;
         for (const Vec& texel : sky.texels) result.push_back(luminance(texel));
@@ -114,7 +112,7 @@ class LumisParts {
     }
 
     const Scene& scene_;
-    lumis::AliasTable<float> choice_;
+    lumis::DiscreteTable<float> choice_;  // in the order of its uniform, as Sobol points want it
     lumis::EnvironmentMap<float> sky_;
 };
 
