@@ -99,6 +99,23 @@ TEST_CASE("weights of nothing, and weights in colour", "[laws]") {
     CHECK(laws::weighs(material(1, 0.7), f_cos).message.find("of nothing drawn") != std::string::npos);
 }
 
+namespace {
+
+// A strategy that weighs what it drew only if it is asked.
+struct Asked : Cosine {
+    double albedo;
+
+    double weight(const V&) const noexcept { return albedo; }
+};
+
+}  // namespace
+
+TEST_CASE("weights of points", "[laws]") {
+    const auto f_cos = [](const V& w) { return 0.5 * std::fmax(w.z, 0) / std::numbers::pi; };
+    CHECK(laws::weighs(Asked{{}, 0.5}, f_cos));
+    CHECK_FALSE(laws::weighs(Asked{{}, 0.501}, f_cos).passed);
+}
+
 TEST_CASE("reciprocity", "[laws]") {
     for (const double alpha : {1e-3, 0.1, 1.0}) {
         const lumis::Ggx<double> ggx{alpha};

@@ -31,11 +31,33 @@
 
 namespace lumis::LUMIS_ISA::testing {
 
-// A strategy whose samples carry the weight that a path goes on with, f cos / pdf: a number or a colour.
+namespace detail {
+
 template <class S>
-concept WeighingStrategy = Strategy<S> && requires(const S strategy, UniformsOf<S> u) {
+concept DrawsWeights = requires(const S strategy, UniformsOf<S> u) {
     strategy.sample(u).weight;
 };
+template <class S>
+concept WeighsPoints = requires(const S strategy, typename S::Point x) {
+    strategy.weight(x);
+};
+
+template <class S>
+[[nodiscard]] auto weight_of(const S& strategy, const auto& sample) {
+    if constexpr (DrawsWeights<S>) {
+        return sample.weight;
+    } else {
+        using Weight = std::remove_cvref_t<decltype(strategy.weight(sample.value))>;
+        return sample.pdf > 0 ? strategy.weight(sample.value) : Weight(0);
+    }
+}
+
+}  // namespace detail
+
+// A strategy that tells the weight which a path goes on with, f cos / pdf, a number or a colour: a member of its samples, or
+// weight(point), which is asked of what was drawn.
+template <class S>
+concept WeighingStrategy = Strategy<S> &&(detail::DrawsWeights<S> || detail::WeighsPoints<S>);
 
 template <class F>
 concept Bsdf = std::invocable<const F&, const glm::dvec3&, const glm::dvec3&> ||
@@ -73,7 +95,7 @@ template <WeighingStrategy S, class F>
 [[nodiscard]] LawResult weighs(const S& strategy, const F& f_cos, const WeightOptions& options = {}) {
     using Scalar = typename S::Scalar;
     using Point = typename S::Point;
-    using Weight = std::remove_cvref_t<decltype(strategy.sample(UniformsOf<S>{}).weight)>;
+    using Weight = decltype(detail::weight_of(strategy, strategy.sample(UniformsOf<S>{})));
     using Weights = detail::Channels<Weight>;
     using Values = detail::Channels<std::remove_cvref_t<decltype(f_cos(Point{}))>>;
     static_assert(Weights::number == Values::number, "the weight has as many components as f");
@@ -88,8 +110,9 @@ template <WeighingStrategy S, class F>
     };
     const auto check = [&](const UniformsOf<S>& u) {
         const auto sample = strategy.sample(u);
+        const Weight reported = detail::weight_of(strategy, sample);
         for (int i = 0; i < Weights::number; ++i) {
-            const double weight = Weights::get(sample.weight, i);
+            const double weight = Weights::get(reported, i);
             if (!std::isfinite(weight)) return fail("weight ", weight, " at u = ", u);
             if (!(sample.pdf > 0)) {
                 if (weight != 0) fail("weight ", weight, " of nothing drawn at u = ", u);
