@@ -19,19 +19,9 @@ namespace lumis::LUMIS_ISA::detail {
 template <Real T>
 class DiskView {
   public:
-    LUMIS_HD DiskView(const Disk<T>& disk, const glm::vec<3, T>& reference_point) noexcept
-        : center_{real::rounded(disk.center - reference_point)} {
-        LUMIS_ASSERT(real::all(!is_nan(disk) && !is_nan(reference_point)));
-        const T squared = glm::dot(disk.normal, disk.normal);
-        const auto has_normal = is_squared_length(squared);
-        if (real::any(has_normal)) {
-            const Direction<T> normal = real::divide(disk.normal, real::sqrt(squared));
-            frame_ = Frame<T>{real::select(has_normal, normal, frame_.normal())};
-            radius_ = real::select(has_normal && disk.radius > 0, disk.radius, 0);
-        }
-        height_ = glm::dot(center_, frame_.normal());
-    }
-    LUMIS_HD DiskView(const Disk<T>& disk, const glm::vec<3, T>& reference_point, Sides sides) noexcept
+    LUMIS_INLINE DiskView(const Disk<T>& disk, const glm::vec<3, T>& reference_point) noexcept
+        : DiskView{disk, reference_point, is_squared_length(T(glm::dot(disk.normal, disk.normal)))} {}
+    LUMIS_INLINE DiskView(const Disk<T>& disk, const glm::vec<3, T>& reference_point, Sides sides) noexcept
         : DiskView{disk, reference_point} {
         if (sides == Sides::Both) return;
         const auto behind = height_ > 0;
@@ -96,6 +86,20 @@ class DiskView {
     }
 
   private:
+    // All at once: of a frame that is replaced later, compilers keep all parts in memory.
+    LUMIS_INLINE DiskView(const Disk<T>& disk, const glm::vec<3, T>& reference_point, MaskOf<T> has_normal) noexcept
+        : center_{real::rounded(disk.center - reference_point)},
+          radius_{real::select(has_normal && disk.radius > 0, disk.radius, 0)},
+          frame_{real::select(has_normal, real::divide(disk.normal, length_where(has_normal, disk.normal)),
+                              Direction<T>{T(0), T(0), T(1)})},
+          height_{glm::dot(center_, frame_.normal())} {
+        LUMIS_ASSERT(real::all(!is_nan(disk) && !is_nan(reference_point)));
+    }
+
+    [[nodiscard]] LUMIS_INLINE static T length_where(const MaskOf<T>& condition, const glm::vec<3, T>& v) noexcept {
+        return real::sqrt(real::divisor_where(condition, T(glm::dot(v, v))));
+    }
+
     template <Real R>
     [[nodiscard]] LUMIS_INLINE glm::vec<3, R> position_at(const Disk<T>& disk,
                                                           const glm::vec<2, R>& across) const noexcept {
@@ -104,9 +108,9 @@ class DiskView {
     }
 
     glm::vec<3, T> center_;  // relative to the reference point
-    T radius_{0};
-    Frame<T> frame_{Direction<T>{T(0), T(0), T(1)}};
-    T height_{0};  // of the plane over the reference point, along the normal; signed
+    T radius_;
+    Frame<T> frame_;
+    T height_;  // of the plane over the reference point, along the normal; signed
 };
 
 }  // namespace lumis::LUMIS_ISA::detail
@@ -114,8 +118,8 @@ class DiskView {
 namespace lumis::LUMIS_ISA {
 
 template <Real T, std::same_as<Sides>... S>
-[[nodiscard]] LUMIS_HD auto seen_from(const Disk<T>& shape, const glm::vec<3, T>& reference_point,
-                                      S... sides) noexcept {
+[[nodiscard]] LUMIS_INLINE inline auto seen_from(const Disk<T>& shape, const glm::vec<3, T>& reference_point,
+                                                 S... sides) noexcept {
     return detail::DiskView<T>{shape, reference_point, sides...};
 }
 
