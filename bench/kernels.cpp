@@ -9,6 +9,8 @@
 #include <lumis/core/lanes.hpp>
 #include <lumis/lumis.hpp>
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <type_traits>
@@ -191,6 +193,73 @@ void add_mixture() {
                 });
 }
 
+// A textured lamp of two triangles, as meshes have them: one is chosen, sampled, and its radiance looked up. The form
+// solved_back has only the direction and distance to go by.
+template <class T>
+struct TexturedLamp {
+    using V = glm::vec<3, T>;
+    std::array<lumis::Triangle<T>, 2> triangles;
+    std::array<T, 64> texels{};
+
+    explicit TexturedLamp(const lumis::Parallelogram<T>& r)
+        : triangles{{{r.corner, r.corner + r.edge_u, r.corner + r.edge_u + r.edge_v},
+                     {r.corner, r.corner + r.edge_u + r.edge_v, r.corner + r.edge_v}}} {
+        for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<T>(i % 7);
+    }
+
+    [[nodiscard]] T radiance(const glm::vec<2, T>& uv) const {
+        const auto texel = [](T x) { return static_cast<std::size_t>(static_cast<int>(x * T(7.99))); };
+        return texels[8 * texel(uv.y) + texel(uv.x)];
+    }
+};
+
+template <class T>
+void add_textured_lamp() {
+    using V = glm::vec<3, T>;
+    struct Drawn {
+        V direction;
+        T pdf;
+        glm::vec<2, T> uv;
+    };
+    const auto lamp = ready(TexturedLamp<T>{Scene<T>{}.rectangle});
+    const auto uniforms = lazily([] { return Uniforms<T>{few}; });
+    const auto add = [&](const char* form, auto draw) {
+        add_form<T>(std::string{"once/textured_triangles_by_area/"} + form, lamp, uniforms,
+                    [draw](const TexturedLamp<T>& lit, const Uniforms<T>& u, std::size_t pass, Results<T>& out) {
+                        const auto x = part(u.x, pass), y = part(u.y, pass);
+                        for (std::size_t i = 0; i < batch; ++i) {
+                            one_at_a_time(i);
+                            const std::size_t chosen = x[i] < T(0.5) ? 0 : 1;
+                            const T rest = 2 * x[i] - static_cast<T>(chosen);
+                            const Drawn s = draw(lit.triangles[chosen], T(0.5) * V{y[i], x[i], 0}, {rest, y[i]});
+                            out.x[i] = s.direction.x;
+                            out.y[i] = s.direction.y;
+                            out.z[i] = s.direction.z;
+                            out.pdf[i] = s.pdf / 2;
+                            out.weight[i] = lit.radiance(s.uv);
+                        }
+                    });
+    };
+    add("single", [](const lumis::Triangle<T>& triangle, const V& from, const glm::vec<2, T>& u) -> Drawn {
+        const auto s = lumis::SurfaceLight{triangle, from}.sample(u);
+        return {s.value, s.pdf, s.surface.uv};
+    });
+    add("solved_back", [](const lumis::Triangle<T>& triangle, const V& from, const glm::vec<2, T>& u) -> Drawn {
+        const auto s = lumis::AreaLight{triangle, from}.sample(u);
+        const V ab = triangle.b - triangle.a, ac = triangle.c - triangle.a, normal = glm::cross(ab, ac),
+                at = (from + s.distance * s.value - triangle.a) / glm::dot(normal, normal);
+        return {s.value, s.pdf, {glm::dot(normal, glm::cross(at, ac)), glm::dot(normal, glm::cross(ab, at))}};
+    });
+    add("textbook", [](const lumis::Triangle<T>& triangle, const V& from, const glm::vec<2, T>& u) -> Drawn {
+        const T root = std::sqrt(u.x);
+        const glm::vec<2, T> uv{root * (1 - u.y), root * u.y};
+        const V ab = triangle.b - triangle.a, ac = triangle.c - triangle.a, normal = glm::cross(ab, ac),
+                to = triangle.a + uv.x * ab + uv.y * ac - from;
+        const T squared = glm::dot(to, to), distance = std::sqrt(squared);
+        return {to / distance, 2 * squared * distance / std::abs(glm::dot(normal, to)), uv};
+    });
+}
+
 template <class T>
 void add_all() {
     using namespace lumis;
@@ -220,6 +289,7 @@ void add_all() {
     add_light_in_lanes<T, ByArea>("rectangle_by_area", scene.rectangle);
     add_light_in_lanes<T, ByArea>("disk_by_area", scene.disk);
     add_light_in_lanes<T, BySolidAngle>("sphere_by_solid_angle", scene.sphere);
+    add_textured_lamp<T>();
     add_strategy<T>("sphere_by_area", ready(AreaLight<Sphere<T>>{scene.sphere, scene.origin}), none);
 }
 
