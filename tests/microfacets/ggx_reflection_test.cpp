@@ -128,9 +128,9 @@ TEMPLATE_TEST_CASE("the weight of a reflection is reflectance times cosine over 
             const auto check = [&, view = wo](const auto& own, const Vector& wi) {
                 const double cosine_over_pdf = double{wi.z} / double{own.pdf(wi)};
                 const double weight = own.weight(wi), separable = own.weight_separable(wi);
-                const auto near = [&](double a, double b) { return std::abs(a - b) <= tolerance * b; };
-                wrong += !near(weight, double{own.ggx().brdf(view, wi)} * cosine_over_pdf);
-                wrong += !near(separable, double{own.ggx().brdf_separable(view, wi)} * cosine_over_pdf);
+                const auto is_close = [&](double a, double b) { return std::abs(a - b) <= tolerance * b; };
+                wrong += !is_close(weight, double{own.ggx().brdf(view, wi)} * cosine_over_pdf);
+                wrong += !is_close(separable, double{own.ggx().brdf_separable(view, wi)} * cosine_over_pdf);
                 wrong += !(separable > 0 && separable <= weight * (1 + tolerance) && weight <= 1 + tolerance);
                 return separable;
             };
