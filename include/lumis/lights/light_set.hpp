@@ -37,7 +37,7 @@ template <class Lights>
 
 }  // namespace detail
 
-// Lights and Table (an AliasTable, a FineAliasTable, or a view of one) may be references, see Held.
+// Lights and Table (an AliasTable, a FineAliasTable, a DiscreteTable, or a view of one) may be references, see Held.
 template <class Lights, class Table>
 class LightSet {
     using Light = std::remove_cvref_t<decltype(detail::light_of(std::declval<const std::remove_cvref_t<Lights>&>(),
