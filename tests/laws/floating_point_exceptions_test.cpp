@@ -183,6 +183,18 @@ TEMPLATE_TEST_CASE("lights of nothing to draw raise no floating-point exception"
         INFO("seen from " << point.x << ", " << point.y << ", " << point.z);
         using Light = lumis::AreaLight<std::remove_cvref_t<decltype(shape)>, decltype(by)>;
         check_making_raises_nothing([&] { return Light{shape, point}; });
+        CHECK(exceptions_raised_by([&] {
+                  const lumis::SurfaceLight<std::remove_cvref_t<decltype(shape)>, decltype(by)> light{
+                      shape, point, lumis::Sides::One};
+                  keep(light.sample({T(0.5), T(0.25)}));
+                  keep(light.hit_along({T(0), T(0), T(1)}));
+                  keep(light.hit_along({T(1), T(0), T(0)}));
+                  keep(lumis::pdf_from_hit<decltype(by)>(shape, point, T(0), T(0)));
+                  const lumis::SurfaceArea area{shape};
+                  keep(area.sample({T(0.5), T(0.25)}));
+                  keep(area.pdf(point));
+                  keep(area.invert(point));
+              }) == 0);
     };
     for (const V& point : {V(0, 0, 0), V(T(0.25), T(0.25), 0), V(5, 0, 0), V(1, 0, 0)}) {
         for (const T size : {T(1), T(0)}) {

@@ -47,8 +47,8 @@ template <Real T>
 template <Real W>
 struct HalfAngle {
     W real_part;
-    bool
-        has_digits;  // unless the parts are differences next to 0, as where two vertices are nearly opposite to each other
+    // Unless both parts are differences next to 0, as where two vertices are nearly opposite to each other.
+    bool has_digits;
 
     template <std::floating_point T>
     [[nodiscard]] LUMIS_INLINE static HalfAngle of(const glm::vec<3, W>& lengths, const glm::vec<3, W>& dots,
@@ -68,6 +68,12 @@ template <class Shape, class T>
     return AreaLight<Shape, BySolidAngle>{shape, reference_point, sides}.pdf_from_hit(T(0), T(0));
 }
 
+// Whether products of six lengths stay in range: of a shape that is seen from as far as 2^160 of its edges away.
+template <class W>
+[[nodiscard]] LUMIS_INLINE inline bool is_in_reach(W length) noexcept {
+    return length <= W(0x1p160);
+}
+
 // 1 / solid angle, for an angle whose half is that of (x, y).
 template <std::floating_point T, class W>
 [[nodiscard]] LUMIS_INLINE inline T density_of_half_angle(W x, W y) noexcept {
@@ -83,10 +89,13 @@ template <std::floating_point T>
     const FlatShape<Triangle<T>> shape{triangle, reference_point};
     const auto& [a, ab, ac] = shape.in_units();
     const auto b = a + ab, c = a + ac;
+    const W aa = real::length(a);
+    if (!is_in_reach(aa)) [[unlikely]]
+        return density_of_light(triangle, reference_point, sides);
     const W signed_volume = glm::dot(cross(a, ab), ac), volume = std::abs(signed_volume);
-    const glm::vec<3, W> lengths{real::length(a), real::length(b), real::length(c)};
+    const glm::vec<3, W> lengths{aa, real::length(b), real::length(c)};
     const auto half = HalfAngle<W>::template of<T>(lengths, {glm::dot(a, b), glm::dot(b, c), glm::dot(c, a)}, volume);
-    if (!(half.has_digits && volume <= (std::numeric_limits<W>::max)())) [[unlikely]]
+    if (!half.has_digits) [[unlikely]]
         return density_of_light(triangle, reference_point, sides);
     if (!(sides == Sides::One ? signed_volume < 0 : volume > 0)) return T(0);
     return density_of_half_angle<T>(half.real_part, volume);
@@ -101,14 +110,16 @@ template <std::floating_point T>
     const FlatShape<Parallelogram<T>> shape{parallelogram, reference_point};
     const auto& [a, u, v] = shape.in_units();
     const auto b = a + u, c = a + (u + v), d = a + v;
+    const W aa = real::length(a);
+    if (!is_in_reach(aa)) [[unlikely]]
+        return density_of_light(parallelogram, reference_point, sides);
     const W signed_volume = glm::dot(cross(a, u), v), volume = std::abs(signed_volume);
-    const W aa = real::length(a), bb = real::length(b), cc = real::length(c), dd = real::length(d), ac = glm::dot(a, c);
+    const W bb = real::length(b), cc = real::length(c), dd = real::length(d), ac = glm::dot(a, c);
     const auto abc = HalfAngle<W>::template of<T>({aa, bb, cc}, {glm::dot(a, b), glm::dot(b, c), ac}, volume);
     const auto acd = HalfAngle<W>::template of<T>({aa, cc, dd}, {ac, glm::dot(c, d), glm::dot(d, a)}, volume);
     const W x = abc.real_part * acd.real_part - volume * volume, y = volume * (abc.real_part + acd.real_part);
-    const W size = std::abs(x) + std::abs(y);
-    if (!(abc.has_digits && acd.has_digits && size >= (std::numeric_limits<W>::min)() &&
-          size <= (std::numeric_limits<W>::max)())) [[unlikely]]
+    if (!(abc.has_digits && acd.has_digits && std::abs(x) + std::abs(y) >= (std::numeric_limits<W>::min)()))
+        [[unlikely]]
         return density_of_light(parallelogram, reference_point, sides);
     if (!(sides == Sides::One ? signed_volume < 0 : volume > 0)) return T(0);
     return density_of_half_angle<T>(x, y);
