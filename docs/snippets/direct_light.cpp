@@ -4,6 +4,7 @@
 #include <lumis/lumis.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <random>
 
@@ -77,6 +78,36 @@ TEST_CASE("a host's own colours") {
         return direct.estimate([](vec3 wi) { return Spectrum{brdf_cos(wi)}; }, uniforms).bands[7];
     };
     const auto law = z_test<float>(band, irradiance / std::numbers::pi, 1);
+    INFO(law.message);
+    CHECK(law.passed);
+}
+
+vec3 texture(const glm::vec2& uv) {
+    return {uv.x, uv.y, 1};
+}
+
+vec3 reflected_of_panel(const vec3& position, const vec3& normal, const vec3& wo, auto& uniforms) {
+    const lumis::Frame frame{normal};
+    const lumis::GgxReflection bsdf{frame.to_local(wo), glm::vec2{alpha}};
+    const lumis::Triangle<float> triangle{a, c, b};  // its normal points down
+
+    const lumis::SurfaceLight panel{triangle, position, lumis::Sides::One};
+    const auto by_panel =
+        multi_sample(lumis::PowerHeuristic{}, lumis::take(1, in_frame(frame, bsdf)), lumis::take(1, panel));
+    const vec3 lit = by_panel.estimate(
+        [&](const lumis::AnySample auto& s) {
+            if (!std::isfinite(s.distance) || occluded(position, s.value, s.distance)) return vec3{0};
+            return brdf_cos(s.value) * texture(s.surface.uv);
+        },
+        uniforms);
+    return lit;
+}
+
+TEST_CASE("a textured light of one side") {
+    const auto blue = [](auto& uniforms) {
+        return reflected_of_panel(vec3{0}, vec3{0, 0, 1}, glm::normalize(vec3{1, 0, 2}), uniforms).z;
+    };
+    const auto law = z_test<float>(blue, irradiance / std::numbers::pi, 1);
     INFO(law.message);
     CHECK(law.passed);
 }
