@@ -7,6 +7,7 @@
 #include "image.hpp"
 #include "render.hpp"
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -33,7 +34,7 @@ std::array<Cost, sizeof...(Parts)> costs(const host::Scene& scene, const host::V
             const std::clock_t start = std::clock();  // of all threads
             const auto image = render(scene, these, view, samples, bounces, static_cast<std::uint64_t>(i));
             result[part].seconds += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-            for (std::size_t k = 0; k < image.size(); ++k) moments[part][k].add(host::luminance(image[k]));
+            for (std::size_t k = 0; k < image.size(); ++k) moments[part][k].add(luminance(image[k]));
             ++part;
         };
         (add(parts), ...);
@@ -59,11 +60,11 @@ int main(int argc, char** argv) {
     const host::LumisParts lumis{scene};
     std::printf("| | parts | relative MSE | CPU seconds | error x time |\n| --- | --- | ---: | ---: | ---: |\n");
     for (const int bounces : {1, 8}) {
-        const auto [books, ours] = costs(scene, view, samples, bounces, textbook, lumis);
-        const auto row = [&](const char* name, const Cost& cost) {
-            std::printf("| %s | %s | %.3g | %.3g | %.2f |\n", bounces == 1 ? "direct light" : "8 bounces", name,
-                        cost.error, cost.seconds, cost.error * cost.seconds / (books.error * books.seconds));
-        };
-        row("textbook", books), row("Lumis", ours);
+        const std::array both = costs(scene, view, samples, bounces, textbook, lumis);
+        for (const Cost& cost : both) {
+            std::printf("| %s | %s | %.3g | %.3g | %.2f |\n", bounces == 1 ? "direct light" : "8 bounces",
+                        &cost == &both[0] ? "textbook" : "Lumis", cost.error, cost.seconds,
+                        cost.error * cost.seconds / (both[0].error * both[0].seconds));
+        }
     }
 }

@@ -97,7 +97,7 @@ class HostParts {
     }
     static std::vector<float> luminances(const host::Sky& sky) {
         std::vector<float> result;
-        for (const Vec& texel : sky.texels) result.push_back(host::luminance(texel));
+        for (const Vec& texel : sky.texels) result.push_back(luminance(texel));
         return result;
     }
 

@@ -44,12 +44,14 @@ struct Bsdf {
     }
     [[nodiscard]] float pdf(const Vec& wi) const { return strategy.pdf(to_lumis(wi)); }
 };
+template <class Strategy>
+Bsdf(Strategy) -> Bsdf<Strategy>;
 
 // All that the loop asks of Lumis. The tables are made once; strategies are made where they are used, and allocate nothing.
 class LumisParts {
   public:
     explicit LumisParts(const Scene& scene)
-        : scene_{scene}, choice_{weights(scene)}, sky_{scene.sky.width, scene.sky.height, luminances(scene.sky)} {}
+        : scene_{scene}, sky_{scene.sky.width, scene.sky.height, luminances(scene.sky)}, choice_{weights()} {}
 
     // Chooses a light in proportion to its power, then a point of it evenly by area, or a direction of the sky.
     [[nodiscard]] LightDraw draw_light(const Vec& point, PathSampler& sampler) const {
@@ -99,21 +101,19 @@ class LumisParts {
         return result;
     }
     // One weight a light, and last that of the sky: as much as all the others.
-    static std::vector<float> weights(const Scene& scene) {
+    [[nodiscard]] std::vector<float> weights() const {
         std::vector<float> result;
         float sum = 0;
-        for (const Triangle* light : scene.lights) {
-            result.push_back(light->area() * luminance(scene.material(*light).emission));
-            sum += result.back();
+        for (const Triangle* light : scene_.lights) {
+            sum += result.emplace_back(light->area() * luminance(scene_.material(*light).emission));
         }
-        const bool shines = std::ranges::any_of(scene.sky.texels, [](const Vec& v) { return largest(v) > 0; });
-        result.push_back(!shines ? 0 : sum > 0 ? sum : 1);
+        result.push_back(sky_.empty() ? 0 : sum > 0 ? sum : 1);
         return result;
     }
 
     const Scene& scene_;
-    lumis::DiscreteTable<float> choice_;  // in the order of its uniform, as Sobol points want it
     lumis::EnvironmentMap<float> sky_;
+    lumis::DiscreteTable<float> choice_;  // in the order of its uniform, as Sobol points want it
 };
 
 }  // namespace host

@@ -67,15 +67,11 @@ Scene::Scene(const std::string& obj_file, Sky its_sky)
     rtcCommitScene(embree_.get());
 }
 
-namespace {
-
 // From a little off the surface that the ray leaves.
-RTCRay embree_ray(const Vec& origin, const Vec& direction, float distance) {
+static RTCRay embree_ray(const Vec& origin, const Vec& direction, float distance) {
     const float nearest = 1e-4f * (1 + length(origin));
     return {origin.x, origin.y, origin.z, nearest, direction.x, direction.y, direction.z, 0, distance, ~0u, 0, 0};
 }
-
-}  // namespace
 
 std::optional<Hit> Scene::closest(const Vec& origin, const Vec& direction) const {
     RTCRayHit query{embree_ray(origin, direction, std::numeric_limits<float>::infinity()), {}};
