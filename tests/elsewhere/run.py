@@ -243,11 +243,12 @@ class OlderStandard:
     """Below C++20 one error says so and another one ends the compilation, whichever header comes first."""
     name: str
     compiler: list
+    every: bool  # each header, or those that most hosts include
 
     def attempt(self, folder):
         anything = {"lumis/core/assert.hpp", "lumis/core/detail/isa.hpp", "lumis/version.hpp"}  # C++17 will do
         parsed = {"lumis/lumis.hpp", "lumis/batch/batch.hpp", "lumis/core/platform.hpp", "lumis/testing/laws.hpp"}
-        headers = [header for header in HEADERS if header not in anything]
+        headers = sorted(set(HEADERS) - anything) if self.every else sorted(parsed)
         for header in headers:
             source = folder / "older.cpp"
             source.write_text(f"#include <{header}>\n")
@@ -257,7 +258,7 @@ class OlderStandard:
             errors = [line for line in printed.splitlines() if "error: " in line]
             if len(errors) != 2 or "Lumis is written in C++20" not in errors[0]:
                 raise Failed(f"<{header}> in C++17 has {len(errors)} errors, the first {errors[:1]}")
-        return f"says so, in each of {len(headers)} headers"
+        return f"says so in {len(headers)} headers"
 
 
 def glm_forced(*names):
@@ -278,8 +279,8 @@ PLACES = [
     Dispatch("dispatch/clang++", ["clang++"]),
     SingleHeader("single-header/g++", ["g++"]),
     SingleHeader("single-header/clang++", ["clang++"]),
-    OlderStandard("older-standard/g++", ["g++"]),
-    OlderStandard("older-standard/clang++", ["clang++"]),
+    OlderStandard("older-standard/g++", ["g++"], True),
+    OlderStandard("older-standard/clang++", ["clang++"], False),
     HostMacros("host-macros/g++", ["g++"]),
     HostMacros("host-macros/clang++", ["clang++"]),
     FirstEstimate("glm-macros/g++", ["g++"], GLM_TOGETHER),
