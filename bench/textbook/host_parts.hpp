@@ -66,7 +66,7 @@ class HostParts {
             return {direction, sky_share * drawn.pdf, drawn.distance, scene_.sky.radiance(direction)};
         }
         const auto chosen = areas_.sample((choice - sky_share) / (1 - sky_share));
-        const host::Triangle& light = *scene_.lights[chosen.index];
+        const host::Triangle& light = scene_.light(chosen.index);
         const float root = std::sqrt(u.x);
         const Vec to_light =
             light.a + root * (1 - u.y) * (light.b - light.a) + root * u.y * (light.c - light.a) - point;
@@ -92,7 +92,7 @@ class HostParts {
     }
     static std::vector<float> areas(const host::Scene& scene) {
         std::vector<float> result;
-        for (const host::Triangle* light : scene.lights) result.push_back(light->area());
+        for (const std::size_t i : scene.lights) result.push_back(scene.triangles[i].area());
         return result;
     }
     static std::vector<float> luminances(const host::Sky& sky) {

@@ -64,7 +64,7 @@ class LumisParts {
             const Vec direction = from_lumis(drawn.value);
             return {direction, chosen.pdf * drawn.pdf, drawn.distance, scene_.sky.radiance(direction)};
         }
-        const Triangle& triangle = *scene_.lights[chosen.value];
+        const Triangle& triangle = scene_.light(chosen.value);
         const auto drawn = lumis::AreaLight{shape_of(triangle), to_lumis(point)}.sample(u);
         return {from_lumis(drawn.value), chosen.pdf * drawn.pdf, drawn.distance, scene_.material(triangle).emission};
     }
@@ -104,8 +104,9 @@ class LumisParts {
     [[nodiscard]] std::vector<float> weights() const {
         std::vector<float> result;
         float sum = 0;
-        for (const Triangle* light : scene_.lights) {
-            sum += result.emplace_back(light->area() * luminance(scene_.material(*light).emission));
+        for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+            const Triangle& light = scene_.light(i);
+            sum += result.emplace_back(light.area() * luminance(scene_.material(light).emission));
         }
         result.push_back(sky_.empty() ? 0 : sum > 0 ? sum : 1);
         return result;

@@ -42,13 +42,9 @@ Scene::Scene(const std::string& obj_file, Sky its_sky)
         for (std::size_t i = 0; i < shape.mesh.material_ids.size(); ++i) {
             const auto material = static_cast<std::size_t>(shape.mesh.material_ids[i]);
             if (material >= materials.size()) throw std::runtime_error(obj_file + ": a face has no material");
-            triangles.push_back({corner(3 * i), corner(3 * i + 1), corner(3 * i + 2), material, 0});
+            if (materials[material].emits()) lights.push_back(triangles.size());
+            triangles.push_back({corner(3 * i), corner(3 * i + 1), corner(3 * i + 2), material, lights.size() - 1});
         }
-    }
-    for (Triangle& triangle : triangles) {
-        if (!material(triangle).emits()) continue;
-        triangle.light = lights.size();
-        lights.push_back(&triangle);
     }
 
     const RTCGeometry mesh = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);

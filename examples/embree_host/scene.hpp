@@ -45,11 +45,12 @@ struct Scene {
     [[nodiscard]] std::optional<Hit> closest(const Vec& origin, const Vec& direction) const;
     [[nodiscard]] bool occluded(const Vec& origin, const Vec& direction, float distance) const;
     [[nodiscard]] const Material& material(const Triangle& triangle) const { return materials[triangle.material]; }
+    [[nodiscard]] const Triangle& light(std::size_t i) const { return triangles[lights[i]]; }
 
     Sky sky;
     std::vector<Material> materials;
     std::vector<Triangle> triangles;
-    std::vector<const Triangle*> lights;  // those that emit, alike to both sides
+    std::vector<std::size_t> lights;  // the triangles that emit, alike to both sides
 
   private:
     std::shared_ptr<RTCDeviceTy> device_;
