@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <random>
 #include <span>
+#include <variant>
 #include <vector>
 
 namespace {
@@ -58,6 +59,46 @@ struct Mixtures {
                                      set.pdf(b.value),
                                      set.distance_along(a.value)};
         for (int i = 0; i < size; ++i) out[i] = numbers[i] < 1e30f ? numbers[i] : -1;
+    }
+};
+
+// A host's own value.
+struct Color {
+    float r, g;
+    LUMIS_HD Color(float red, float green) : r{red}, g{green} {}
+    LUMIS_HD friend Color operator+(const Color& a, const Color& b) { return {a.r + b.r, a.g + b.g}; }
+    LUMIS_HD friend Color operator*(const Color& a, float s) { return {a.r * s, a.g * s}; }
+};
+
+}  // namespace
+
+template <>
+struct lumis::zero<Color> {
+    LUMIS_HD static Color value() { return {0, 0}; }
+};
+
+namespace {
+
+// What a path goes on with, a light of either kind, and a host's own values.
+struct Paths {
+    static constexpr int size = 8;
+    Parts parts;
+
+    LUMIS_HD void operator()(unsigned index, float* out) const {
+        device::Stream uniforms{index};
+        const VariantStrategy<std::variant<Light, CosineHemisphere<float>>> light{parts.lights[0]},
+            lobe{CosineHemisphere<float>{}};
+        const auto direct = multi_sample(PowerHeuristic{}, take(1, light), take(1, lobe));
+        const auto a = direct.weighted_sample<0>(uniforms);
+        const auto b = direct.weighted_sample<1>(uniforms);
+        const auto mixed = one_sample(BalanceHeuristic{}, choose(0.5f, light), choose(0.4f, lobe));
+        float selected = 0;
+        const bool drawn = mixed.weighted_sample(uniforms, [&](const auto& s) { selected = s.factor(); });
+        const Color color =
+            direct.estimate([](const glm::vec3& w, auto t) { return Color{w.x * w.x, t == 0 ? 1.0f : 0.0f}; }, uniforms);
+        const float numbers[size] = {a.sample.distance, a.weight(), a.factor(), b.density, b.weight_given<0>(2.0f),
+                                     drawn ? selected : -1, color.r, color.g};
+        for (int i = 0; i < size; ++i) out[i] = numbers[i];
     }
 };
 
@@ -139,6 +180,7 @@ int main() {
     const Parts there{sky.view(copies), powers.view(copies), copies(std::span<const Light>{lights}), bsdf};
     bool good = device::agrees("heuristics", Heuristics{}, Heuristics{});
     good &= device::agrees("mixtures and light sets", Mixtures{here}, Mixtures{there});
+    good &= device::agrees("paths", Paths{here}, Paths{there});
     good &= device::agrees("estimates", Estimates{here}, Estimates{there});
     return good ? 0 : 1;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <random>
 #include <span>
+#include <variant>
 
 using namespace lumis;
 
@@ -135,6 +136,11 @@ namespace {
     (void)Mixture{choose(0.5, cosine), choose(0.5, mirror)};
 #else
     (void)one_sample(BalanceHeuristic{}, choose(0.5, cosine), choose(0.5, mirror));
+#endif
+#ifdef MIRROR_IN_A_VARIANT  // says: a delta strategy is no alternative
+    (void)VariantStrategy{std::variant<CosineHemisphere<float>, PerfectReflection<float>>{cosine}};
+#else
+    (void)VariantStrategy{std::variant<CosineHemisphere<float>, UniformHemisphere<float>>{cosine}};
 #endif
 #ifdef POINT_LIGHTS_IN_A_SET  // says: lights of a set are strategies with a density
     const auto lamps = [](std::size_t) { return PointLight{glm::vec3{0, 0, 1}, glm::vec3{0}}; };

@@ -1,6 +1,7 @@
 // Subjects of the laws: tables over [0, 1], [0, 1]^2 and indices, and what is combined from many strategies.
 #pragma once
 
+#include "light_subjects.hpp"
 #include "subject.hpp"
 #include "visibility.hpp"
 #include <lumis/lumis.hpp>
@@ -11,6 +12,7 @@
 #include <random>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace subjects {
@@ -115,6 +117,25 @@ struct Mixture {
         result.back().integrand = [=](const glm::dvec3& w) {
             return meets(three_corners, {})(w) || meets(ball, {})(w);
         };
+        return result;
+    }
+};
+
+// Each alternative in turn, of different dimensions: a light, and a mixture that draws nothing one time in ten.
+struct VariantStrategy {
+    template <class T>
+    static auto make() {
+        const auto light = SphereBySolidAngle::make<T>().front();
+        const auto mixture = Mixture::make<T>().front();
+        using S = lumis::VariantStrategy<std::variant<std::remove_cvref_t<decltype(light.strategy)>,
+                                                      std::remove_cvref_t<decltype(mixture.strategy)>>>;
+        std::vector<Subject<S>> result;
+        const auto add = [&](const char* name, const auto& one) {
+            result.push_back({name, S{one.strategy}, one.chart, one.probability, one.blur, one.agreement});
+            result.back().integrand = one.integrand;
+        };
+        add("a light", light);
+        add("a mixture", mixture);
         return result;
     }
 };

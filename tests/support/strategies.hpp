@@ -34,4 +34,5 @@ using Strategies = std::tuple<subjects::CosineHemisphere,           //
                               subjects::PiecewiseConstant2D,        //
                               subjects::AliasTable,                 //
                               subjects::LightSet,                   //
-                              subjects::Mixture>;
+                              subjects::Mixture,                    //
+                              subjects::VariantStrategy>;

@@ -70,13 +70,14 @@ class WeightedSample {
     }
 
   private:
-    template <std::size_t N>
-    [[nodiscard]] LUMIS_HD static constexpr std::size_t position(const std::array<std::size_t, N>& given,
-                                                                 std::size_t k) {
-        for (std::size_t i = 0; i < N; ++i) {
-            if (given[i] == k) return i;
+    // Where k stands among those given; their number if it does not.
+    [[nodiscard]] LUMIS_HD static constexpr std::size_t position(const auto& given, std::size_t k) {
+        std::size_t at = 0;
+        for (const std::size_t one : given) {
+            if (one == k) break;
+            ++at;
         }
-        return N;
+        return at;
     }
 
     const Estimator* estimator_;
