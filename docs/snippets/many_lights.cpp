@@ -18,34 +18,16 @@ const std::vector<lumis::Triangle<float>> triangles{{{-1, -1, 1}, {1, -1, 1}, {1
 const std::vector<float> powers{1, 2};
 constexpr double irradiance_of_square = 1.740839502734;
 
-// A light of any of some shapes, as seen from a point.
-class AnyLight {
-  public:
-    using Scalar = float;
-    using Point = lumis::Direction<float>;
-    using Measure = lumis::measure::SolidAngle;
-    static constexpr int dimensions = 2;
+// A light of either shape, as seen from a point.
+template <class Shape>
+using BySolidAngle = lumis::AreaLight<Shape, lumis::BySolidAngle>;
+using AnyLight =
+    lumis::VariantStrategy<std::variant<BySolidAngle<lumis::Sphere<float>>, BySolidAngle<lumis::Parallelogram<float>>>>;
 
-    template <class Shape>
-    AnyLight(const Shape& shape, const vec3& position)
-        : light_{lumis::AreaLight<Shape, lumis::BySolidAngle>{shape, position}} {}
-
-    lumis::LightSample<Point, float> sample(glm::vec2 u) const noexcept {
-        return std::visit([&](const auto& light) { return light.sample(u); }, light_);
-    }
-    float pdf(const Point& w) const noexcept {
-        return std::visit([&](const auto& light) { return light.pdf(w); }, light_);
-    }
-    float distance_along(const Point& w) const noexcept {  // infinity where w misses the light
-        return std::visit([&](const auto& light) { return light.distance_along(w); }, light_);
-    }
-
-  private:
-    std::variant<lumis::AreaLight<lumis::Sphere<float>, lumis::BySolidAngle>,
-                 lumis::AreaLight<lumis::Parallelogram<float>, lumis::BySolidAngle>>
-        light_;
-};
-static_assert(lumis::LightStrategy<AnyLight>);
+template <class Shape>
+BySolidAngle<Shape> by_solid_angle(const Shape& shape, const vec3& position) {
+    return {shape, position};
+}
 
 // The irradiance that a set of lights of radiance 1 gives at the origin.
 template <class Set>
@@ -100,7 +82,7 @@ TEST_CASE("a set of lights of several kinds") {
     const lumis::AliasTable<float> by_power{powers};
 
     const auto lights = [&](std::size_t i) {
-        return std::visit([&](const auto& shape) { return AnyLight{shape, position}; }, shapes[i]);
+        return std::visit([&](const auto& shape) { return AnyLight{by_solid_angle(shape, position)}; }, shapes[i]);
     };
     const lumis::LightSet set{lights, by_power};
     check_irradiance(set, irradiance_of_square + irradiance_of_sphere);
