@@ -61,6 +61,20 @@ TEST_CASE("a variant of strategies draws what the one in it draws", "[variant_st
     CHECK(Anything{Cosine{}}.distance_along(w) == infinity);
 }
 
+TEST_CASE("a variant tells the surface of a light that does", "[variant_strategy]") {
+    using Textured = lumis::SurfaceLight<lumis::Parallelogram<float>>;
+    using Either = lumis::VariantStrategy<std::variant<Textured, Ball>>;
+    STATIC_REQUIRE(lumis::SurfaceStrategy<Either>);
+    const Textured textured{{{-1, -1, 1}, {2, 0, 0}, {0, 2, 0}}, vec3{0}};
+    const auto sample = Either{textured}.sample({0.25f, 0.75f}), alone = textured.sample({0.25f, 0.75f});
+    CHECK(sample.surface.uv == alone.surface.uv);
+    CHECK(sample.surface.position == alone.surface.position);
+    const vec3 w = glm::normalize(vec3{0.1f, 0.2f, 1});
+    CHECK(Either{textured}.hit_along(w).surface.uv == textured.hit_along(w).surface.uv);
+    CHECK(Either{ball}.hit_along(w).distance == ball.distance_along(w));
+    CHECK(Either{ball}.sample({0.25f, 0.75f}).surface.uv == glm::vec2{0});
+}
+
 // The irradiance of a square (Lambert) and of a sphere that half the sky hides nothing of; see the guide's snippet.
 TEST_CASE("variants combine: in sets, in mixtures, in frames, in estimators", "[variant_strategy]") {
     const Ball aside{{{2, 0, 0}, 1}, vec3{0}};

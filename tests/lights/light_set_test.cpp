@@ -1,11 +1,14 @@
 // Sets of lights: the density of the whole set, none and one and very many, and how lights and tables are passed.
 #include "catch.hpp"
+#include "instrumented.hpp"
 #include "irradiance.hpp"
+#include <lumis/core/lanes.hpp>
 #include <lumis/lumis.hpp>
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -16,6 +19,18 @@
 #include <vector>
 
 namespace {
+
+// A source that yields the same three numbers, or lanes of them.
+template <class U>
+struct Repeated {
+    U u;
+    template <int N>
+    [[nodiscard]] glm::vec<N, typename U::value_type> next() const {
+        glm::vec<N, typename U::value_type> result;
+        for (int i = 0; i < N; ++i) result[i] = u[i % 3];
+        return result;
+    }
+};
 
 template <class T>
 using SphereLight = lumis::AreaLight<lumis::Sphere<T>, lumis::BySolidAngle>;
@@ -229,4 +244,45 @@ TEST_CASE("a light set refuses other numbers of lights and weights", "[light_set
     CHECK_THAT(refusal({1, -2, 3}), Contains("weight 1 is -2"));
     CHECK_THAT(refusal({}), Contains("3 lights"));
     CHECK(refusal({0, 0, 0}) == "accepted");
+}
+
+// Which light stands at the distance, whichever of the set drew the direction.
+TEMPLATE_TEST_CASE("a set's sample tells the index of the light that is seen", "[light_set]", float, double) {
+    using T = TestType;
+    using V = glm::vec<3, T>;
+    using L = lumis::Lanes<T, 4>;
+    using Light = lumis::AreaLight<lumis::Parallelogram<T>>;
+    const auto square = [](T half, T height) {
+        return Light{{V(-half, -half, height), V(2 * half, 0, 0), V(0, 2 * half, 0)}, V(T(0))};
+    };
+    const std::vector lights{square(T(2), T(2)), square(T(0.5), T(1)), square(T(4), T(-1))};
+    const lumis::LightSet set{lights, std::vector<T>{1, 1, 2}};
+    const auto expected = [&](const V& w) { return w.z < 0 ? std::size_t{2} : lights[1].pdf(w) > 0 ? 1 : 0; };
+    CountingUniforms<T> uniforms;
+    std::array<int, 3> seen{};
+    glm::vec<3, L> u;
+    for (int i = 0; i < 400; ++i) {
+        const auto numbers = uniforms.template next<3>();
+        const auto sample = set.sample(numbers);
+        REQUIRE(sample.index == expected(sample.value));
+        REQUIRE(std::abs(sample.distance - lights[sample.index].distance_along(sample.value)) <= T(1e-5));
+        ++seen[sample.index];
+        for (int k = 0; k < 3; ++k) u[k].set(static_cast<std::size_t>(i) % 4, numbers[k]);
+        if (i % 4 != 3) continue;
+        const auto lanes = set.sample(u);
+        for (std::size_t lane = 0; lane < 4; ++lane) {
+            REQUIRE(lanes.index[lane] == expected(lumis::detail::lane_of(lanes.value, lane)));
+        }
+    }
+    CHECK((seen[0] > 20 && seen[1] > 100 && seen[2] > 150));
+
+    // Through an estimator, for numbers and lane by lane.
+    const auto direct = lumis::multi_sample(lumis::BalanceHeuristic{}, lumis::take(1, set));
+    const auto by_index = [](const lumis::IndexedSample<lumis::LightSample<V, T>>& s) { return T(s.index + 1); };
+    const auto by_point = [&](const V& w) { return T(expected(w) + 1); };
+    CountingUniforms<T> again = uniforms;
+    const Repeated<glm::vec<3, L>> lanes{u};
+    for (int i = 0; i < 20; ++i) REQUIRE(direct.estimate(by_index, uniforms) == direct.estimate(by_point, again));
+    for (std::size_t i = 0; i < 4; ++i)
+        CHECK(direct.estimate(by_index, lanes)[i] == direct.estimate(by_point, lanes)[i]);
 }

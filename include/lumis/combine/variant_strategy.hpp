@@ -29,6 +29,7 @@ template <class First, class... Rest>
 class VariantStrategy<std::variant<First, Rest...>> {
     using Variant = std::variant<First, Rest...>;
     static constexpr bool knows_nearest = detail::KnowNearest<First, Rest...>;
+    static constexpr bool knows_surface = detail::KnowSurface<First, Rest...>;
 
   public:
     using Scalar = typename First::Scalar;
@@ -38,9 +39,6 @@ class VariantStrategy<std::variant<First, Rest...>> {
     // Those of the alternative that takes the most; any other leaves the last ones unused.
     static constexpr int dimensions =
         real::largest_of(std::array<int, 1 + sizeof...(Rest)>{First::dimensions, Rest::dimensions...});
-
-    // Where one alternative is a light, all samples have a distance: infinity for what has none.
-    using SampleType = std::conditional_t<knows_nearest, LightSample<Point, Scalar>, Sample<Point, Scalar>>;
 
     static_assert(!(DeltaStrategy<First> || ... || DeltaStrategy<Rest>),
                   "a delta strategy is no alternative: whether one has a density is known at compile time");
@@ -79,11 +77,25 @@ class VariantStrategy<std::variant<First, Rest...>> {
         return distance<typename detail::RealAt<First, X>::type>(w);
     }
 
+    // The same, and what stands there.
+    [[nodiscard]] LUMIS_HD LightHit<Scalar> hit_along(const Point& w) const noexcept requires knows_surface {
+        return hit<Scalar>(w);
+    }
+    template <detail::PointInLanes<First> X>
+    requires knows_surface [[nodiscard]] LUMIS_HD auto hit_along(const X& w) const noexcept {
+        return hit<typename detail::RealAt<First, X>::type>(w);
+    }
+
   private:
     template <Real R>
     using PointAt = typename detail::PointIn<Point, Scalar, R>::type;
+
+    // Where one alternative is a light, all samples have a distance: infinity for what has none. Where one tells its surface,
+    // all samples have one: zeros for what does not.
     template <Real R, bool with_distance>
-    using SampleIn = std::conditional_t<with_distance, LightSample<PointAt<R>, R>, Sample<PointAt<R>, R>>;
+    using SampleIn = std::conditional_t<
+        !with_distance, Sample<PointAt<R>, R>,
+        std::conditional_t<knows_surface, SurfaceLightSample<PointAt<R>, R>, LightSample<PointAt<R>, R>>>;
 
     // f(the strategy); `none` of a variant that an exception has left without one.
     template <class Result, class F>
@@ -109,7 +121,10 @@ class VariantStrategy<std::variant<First, Rest...>> {
                 return Result{drawn.value, drawn.pdf};
             } else {
                 const auto drawn = detail::sample_in<R>(strategy, own);
-                if constexpr (detail::HasDistance<Result>) {
+                if constexpr (detail::HasSurface<Result>) {
+                    const auto [distance, surface] = detail::own_hit<R>(drawn);
+                    return Result{drawn.value, drawn.pdf, distance, surface};
+                } else if constexpr (detail::HasDistance<Result>) {
                     return Result{drawn.value, drawn.pdf, detail::own_distance<R>(drawn)};
                 } else {
                     return Result{drawn.value, drawn.pdf};
@@ -131,6 +146,17 @@ class VariantStrategy<std::variant<First, Rest...>> {
                 return detail::distance_in<R>(strategy, w);
             } else {
                 return infinity;
+            }
+        });
+    }
+
+    template <Real R>
+    [[nodiscard]] LUMIS_HD LightHit<R> hit(const PointAt<R>& w) const noexcept {
+        return visit(LightHit<R>{}, [&](const auto& strategy) {
+            if constexpr (LightStrategy<std::remove_cvref_t<decltype(strategy)>>) {
+                return detail::hit_in<R>(strategy, w);
+            } else {
+                return LightHit<R>{};
             }
         });
     }

@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include <concepts>
+#include <cstddef>
 #include <limits>
 
 namespace lumis::LUMIS_ISA {
@@ -31,6 +32,12 @@ struct LightSample {
     Point value{};
     Scalar pdf{};
     Scalar distance{};
+};
+
+// A sample of one of several lights, and its index: in lanes an array of them.
+template <class Drawn, class Index = std::size_t>
+struct IndexedSample : Drawn {
+    Index index{};
 };
 
 // The policy for densities in one line: a positive finite number stays; anything else, NaN too, means "nothing drawn".

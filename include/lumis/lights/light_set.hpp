@@ -51,10 +51,12 @@ class LightSet {
     static constexpr int dimensions = std::remove_cvref_t<Table>::dimensions + Light::dimensions;
     using LightSampleType = decltype(std::declval<const Light&>().sample(UniformsOf<Light>{}));
 
-    // A light's own kind of sample; its distance is that to the nearest light of the set, which only lights know that are a
-    // LightStrategy, and its surface that of the nearest.
-    using SampleType = std::conditional_t<detail::DrawsDistance<Light> && !LightStrategy<Light>, Sample<Point, Scalar>,
-                                          LightSampleType>;
+    // A light's own kind of sample; its distance is that to the nearest light of the set, and so is its surface, and its index
+    // says which one that is. Only lights know it that are a LightStrategy.
+    static constexpr bool knows_nearest = LightStrategy<Light>;
+    using SampleType =
+        std::conditional_t<knows_nearest, IndexedSample<LightSampleType>,
+                           std::conditional_t<detail::DrawsDistance<Light>, Sample<Point, Scalar>, LightSampleType>>;
 
     static_assert(std::same_as<typename std::remove_cvref_t<Table>::Scalar, Scalar>,
                   "the weights of a light set have its scalar type");
@@ -81,18 +83,21 @@ class LightSet {
     // The first uniform selects the light, with a FineAliasTable the first two. Density and distance are those of the whole
     // set, and ask every light for its own: a light may stand before the one selected, and is then the one that is seen.
     [[nodiscard]] LUMIS_HD SampleType sample(glm::vec<dimensions, Scalar> u) const noexcept {
-        if constexpr (detail::DrawsDistance<Light> && !LightStrategy<Light>) {
+        if constexpr (detail::DrawsDistance<Light> && !knows_nearest) {
             return sample_point(u);
         } else {
             const Selected drawn = sample_one(u);
-            SampleType sample = drawn.sample;
+            SampleType sample{drawn.sample};
+            if constexpr (knows_nearest) sample.index = drawn.index;
             if (!(sample.pdf > 0)) return sample;
             sample.pdf = density<Scalar>(sample.value, [&](std::size_t i, const Light& light) {
-                if constexpr (SurfaceStrategy<Light>) {
-                    if (i != drawn.index) detail::keep_nearer(sample, light.hit_along(sample.value));
-                } else if constexpr (detail::DrawsDistance<Light>) {
-                    if (i != drawn.index)
-                        sample.distance = real::lesser(sample.distance, light.distance_along(sample.value));
+                if constexpr (knows_nearest) {
+                    if (i == drawn.index) return;
+                    const LightHit<Scalar> other = detail::hit_in<Scalar>(light, sample.value);
+                    if (!(other.distance < sample.distance)) return;
+                    sample.distance = other.distance;
+                    sample.index = i;
+                    if constexpr (SurfaceStrategy<Light>) sample.surface = other.surface;
                 }
             });
             return sample;
@@ -103,7 +108,8 @@ class LightSet {
     template <RealOf<Scalar> R>
         requires(!std::same_as<R, Scalar>)
     [[nodiscard]] LUMIS_HD auto sample(const glm::vec<dimensions, R>& u) const noexcept {
-        std::array<std::size_t, R::size> selected;
+        using Indices = std::array<std::size_t, R::size>;
+        Indices selected;
         auto result = detail::draw_each_lane<LightSet>(u, [&, lane = std::size_t{0}](const auto& alone) mutable {
             const Selected drawn = sample_one(alone);
             selected[lane++] = drawn.index;
@@ -114,11 +120,13 @@ class LightSet {
             }
         });
         const auto drawn = result.pdf > 0;
+        Indices nearest = selected;
         result.pdf = density<R>(result.value, [&](std::size_t i, const Light& light) {
-            if constexpr (detail::HasDistance<SampleType>) {
+            if constexpr (knows_nearest) {
                 const LightHit<R> other = detail::hit_in<R>(light, result.value);
                 for (std::size_t lane = 0; lane < R::size; ++lane) {
                     if (i == selected[lane] || !(other.distance[lane] < result.distance[lane])) continue;
+                    nearest[lane] = i;
                     result.distance.set(lane, other.distance[lane]);
                     if constexpr (detail::HasSurface<SampleType>)
                         detail::put_lane(result.surface, lane, detail::lane_of(other.surface, lane));
@@ -126,7 +134,11 @@ class LightSet {
             }
         });
         result.pdf = real::select(drawn, result.pdf, Scalar(0));
-        return result;
+        if constexpr (knows_nearest) {
+            return IndexedSample<decltype(result), Indices>{result, nearest};
+        } else {
+            return result;
+        }
     }
 
     // The same but for the distance.

@@ -82,6 +82,15 @@ LUMIS_INLINE inline void put_lane(SurfacePoint<L>& lanes, std::size_t i, const S
 
 // One lane of a sample.
 template <class Drawn>
+[[nodiscard]] LUMIS_INLINE inline auto lane_of_sample(const Drawn& drawn, std::size_t i) noexcept;
+template <class Drawn, class Index>
+[[nodiscard]] LUMIS_INLINE inline auto lane_of_sample(const IndexedSample<Drawn, Index>& drawn,
+                                                      std::size_t i) noexcept {
+    const Drawn& unindexed = drawn;
+    const auto alone = lane_of_sample(unindexed, i);
+    return IndexedSample<std::remove_const_t<decltype(alone)>>{alone, drawn.index[i]};
+}
+template <class Drawn>
 [[nodiscard]] LUMIS_INLINE inline auto lane_of_sample(const Drawn& drawn, std::size_t i) noexcept {
     using Point = decltype(lane_of(drawn.value, i));
     using T = decltype(lane_of(drawn.pdf, i));
