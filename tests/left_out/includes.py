@@ -30,8 +30,10 @@ STRATEGIES = ("tables/", "directions/", "microfacets/", "lights/")
 # Headers that are built upon a strategy, or upon a surface or shape that users include as well.
 BUILT_UPON = [
     (r"microfacets/(detail/)?ggx_\w+", r"microfacets/(ggx|ggx_vndf|reflected)"),
-    (r"lights/(detail/\w+|area_light\w*)", r"lights/(shapes|surface)"),
+    (r"lights/(detail/\w+|area_light\w*|surface\w*|pdf_from_hit)", r"lights/(shapes|surface)"),
     (r"lights/area_light_by_solid_angle", r"lights/area_light"),
+    (r"lights/(surface_light|pdf_from_hit|detail/hit_density)", r"lights/area_light(_by_solid_angle)?"),
+    (r"lights/surface_area", r"directions/cosine_hemisphere"),
     (r"lights/light_set", r"tables/alias_table"),
 ]
 
