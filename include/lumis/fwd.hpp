@@ -17,6 +17,7 @@ namespace lumis::LUMIS_ISA {
 namespace measure {
 struct SolidAngle;
 struct Area;
+struct AreaSolidAngle;
 struct Lebesgue;
 struct Counting;
 }  // namespace measure
@@ -24,6 +25,16 @@ template <class Point, Real Scalar>
 struct Sample;
 template <class Point, Real Scalar>
 struct LightSample;
+template <class Drawn, class Index>
+struct IndexedSample;
+template <Real R>
+struct SurfacePoint;
+template <class Point, Real Scalar>
+struct SurfaceLightSample;
+template <class Point, Real Scalar>
+struct SurfaceAreaSample;
+template <Real R>
+struct LightHit;
 template <Real T>
 class Frame;
 template <std::signed_integral Bits, std::size_t N>
@@ -91,8 +102,17 @@ template <Real T>
 struct Sphere;
 struct ByArea;
 struct BySolidAngle;
+enum class Sides;
 template <class S, class Sampling>
 class AreaLight;
+template <class S, class Sampling>
+class SurfaceLight;
+template <class S>
+class SurfaceArea;
+template <class S>
+class SurfaceEmission;
+template <Real R>
+struct SurfaceRay;
 template <Real R>
 struct SurfaceSample;
 template <Real R>
@@ -130,6 +150,10 @@ template <class S>
 struct Choose;
 template <class HeldStrategy>
 class InFrame;
+template <class Variant>
+class VariantStrategy;
+template <class T>
+struct zero;
 template <class H, class... S>
 class MultiSample;
 template <class H, class... S>

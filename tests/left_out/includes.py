@@ -71,7 +71,7 @@ for name, included in headers.items():
         wrong.append(f"lumis.hpp does not include {name}")
 
 # What fwd.hpp declares is defined somewhere; lumis.hpp, which includes both, would not compile if they did not agree.
-declaration = re.compile(r"^(?:class|struct|enum class) (\w+)(?: final)?(;| |$)", re.MULTILINE)
+declaration = re.compile(r"^(?:class|struct|enum class) (\w+)(?:<.*>)?(?: final)?(;| |$)", re.MULTILINE)
 declared = [name for name, end in declaration.findall((root / "lumis/fwd.hpp").read_text()) if end == ";"]
 defined = {
     name for header in headers for name, end in declaration.findall((root / "lumis" / header).read_text()) if end != ";"
