@@ -226,6 +226,7 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
 
   private:
     using Shape = detail::FlatShape<Parallelogram<T>>;
+    using Edges = typename Shape::Edges;
     using Vector = typename Shape::Vector;
     class Halves;
 
@@ -235,15 +236,15 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
           solid_angle_{rectangle_.solid_angle()},
           unit_{static_cast<T>(shape.unit) * rectangle_.unit()} {
         if (!(rectangle_.has_digits() && is_rectangle(shape))) {
-            halves_ = split(Shape{shape});
+            halves_ = split(Edges{shape.in_units()});
             solid_angle_ = halves_->solid_angle();
         }
         pdf_ = detail::uniform_density(solid_angle_);
     }
 
     // Called with copies: of a light to whose parts a call refers, compilers keep all parts in memory.
-    [[nodiscard]] LUMIS_NOINLINE static std::optional<Halves> split(const Shape& shape) noexcept {
-        return Halves{shape};
+    [[nodiscard]] LUMIS_NOINLINE static std::optional<Halves> split(const Edges& edges) noexcept {
+        return Halves{edges.corner, edges.edge_u, edges.edge_v, edges.edge_u + edges.edge_v};
     }
 
     // Whether the edges are at right angles; up to the rounding of T, unless the reference point is so close by that such a
@@ -261,9 +262,13 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     // Two triangles, each from an edge at the corner to the diagonal.
     class Halves {
       public:
-        LUMIS_INLINE explicit Halves(const Shape& shape) noexcept
-            : Halves{shape.in_units().corner, shape.in_units().edge_u, shape.in_units().edge_v,
-                     shape.in_units().edge_u + shape.in_units().edge_v} {}
+        LUMIS_INLINE Halves(const Vector& a, const Vector& u, const Vector& v, const Vector& diagonal) noexcept
+            : first_{a, a + u, a + diagonal, u, diagonal}, second_{a, a + v, a + diagonal, v, diagonal} {
+            const Vector across = detail::cross(a, diagonal);
+            to_first_ = glm::dot(u, across) > 0 ? across : -across;
+            const T first = first_.solid_angle(), second = second_.solid_angle();
+            share_ = real::quotient_where(first > 0 && second > 0, first, first + second);
+        }
 
         // 0 if the reference point lies at a vertex or in the plane.
         [[nodiscard]] LUMIS_HD T solid_angle() const noexcept {
@@ -290,14 +295,6 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
         }
 
       private:
-        LUMIS_INLINE Halves(const Vector& a, const Vector& u, const Vector& v, const Vector& diagonal) noexcept
-            : first_{a, a + u, a + diagonal, u, diagonal}, second_{a, a + v, a + diagonal, v, diagonal} {
-            const Vector across = detail::cross(a, diagonal);
-            to_first_ = glm::dot(u, across) > 0 ? across : -across;
-            const T first = first_.solid_angle(), second = second_.solid_angle();
-            share_ = real::quotient_where(first > 0 && second > 0, first, first + second);
-        }
-
         detail::SphericalTriangle<T> first_, second_;
         glm::vec<3, T> to_first_;  // normal to the plane through the diagonal
         T share_{0};               // of the first in the solid angle
