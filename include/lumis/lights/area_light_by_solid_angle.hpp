@@ -242,7 +242,7 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
         pdf_ = detail::uniform_density(solid_angle_);
     }
 
-    // Called with copies: of a light to whose parts a call refers, compilers keep all parts in memory.
+    // Takes a copy: compilers keep a whole light in memory if a call refers to any part of it.
     [[nodiscard]] LUMIS_NOINLINE static std::optional<Halves> split(const Edges& edges) noexcept {
         return Halves{edges.corner, edges.edge_u, edges.edge_v, edges.edge_u + edges.edge_v};
     }

@@ -43,15 +43,15 @@ class DiskView {
         return {Vector(center_) + distance * across, height_};
     }
 
-    // Of the point that sample draws.
+    // The surface at the point that sample draws.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface(const Disk<T>& disk, const glm::vec<2, R>& u) const noexcept {
         const auto circle = unit_circle(u.y);
         return {position_at(disk, R(radius_ * real::sqrt(u.x)) * circle), Direction<R>(frame_.normal()), u};
     }
 
-    // Of the point at which a unit vector w meets the disk as `met` says; of the rim's nearest where rounding has put w beside
-    // it.
+    // The surface where a unit vector w meets the disk as `met` says; where rounding has put w beside it, that of the rim's
+    // nearest point.
     template <Real R>
     [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface(const Disk<T>& disk, const Direction<R>& w,
                                                        const SurfaceHit<R>& met) const noexcept {
@@ -86,7 +86,7 @@ class DiskView {
     }
 
   private:
-    // All at once: of a frame that is replaced later, compilers keep all parts in memory.
+    // The frame is made once: compilers keep a view in memory if a part of it is replaced in a branch.
     LUMIS_INLINE DiskView(const Disk<T>& disk, const glm::vec<3, T>& reference_point, MaskOf<T> has_normal) noexcept
         : center_{real::rounded(disk.center - reference_point)},
           radius_{real::select(has_normal && disk.radius > 0, disk.radius, 0)},

@@ -91,14 +91,14 @@ class FlatView {
         return {Vector(corner_) + at.x * Vector(edge_u_) + at.y * Vector(edge_v_), height_};
     }
 
-    // Of the point that sample draws.
+    // The surface at the point that sample draws.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface(const Shape& shape, const glm::vec<2, R>& u) const noexcept {
         return surface_at(shape, flat_coordinates<Shape>(u));
     }
 
-    // Of the point at which a unit vector w meets the plane as `met` says; of the shape's nearest where rounding has put w
-    // beside it.
+    // The surface where a unit vector w meets the plane as `met` says; where rounding has put w beside the shape, that of a point
+    // on its edge.
     template <Real R>
     [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface(const Shape& shape, const Direction<R>& w,
                                                        const SurfaceHit<R>& met) const noexcept {

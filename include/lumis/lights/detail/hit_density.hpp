@@ -101,7 +101,7 @@ template <std::floating_point T>
     return density_of_half_angle<T>(half.real_part, volume);
 }
 
-// Of both triangles at the diagonal from the corner, as a product of complex numbers. The two have one volume.
+// Multiplies the half angles of both triangles at the diagonal as complex numbers. The two triangles have the same volume.
 template <std::floating_point T>
 [[nodiscard]] LUMIS_INLINE inline T density_by_solid_angle(const Parallelogram<T>& parallelogram,
                                                            const glm::vec<3, T>& reference_point,

@@ -75,14 +75,15 @@ class SphereView {
         return drawn;
     }
 
-    // Of the point that sample draws.
+    // The surface at the point that sample draws.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface(const Sphere<T>& sphere,
                                                        const glm::vec<2, R>& u) const noexcept {
         return surface_at(sphere, direction_at(R(2 * u.x), u.y), u);
     }
 
-    // Of the point that direction draws. The normal keeps its digits, which w lacks where the sphere is small and far away.
+    // The surface at the point that direction draws. The normal keeps its digits, which w lacks where the sphere is small and
+    // far away.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface_of_direction(const Sphere<T>& sphere,
                                                                     const glm::vec<2, R>& u) const noexcept {
@@ -90,7 +91,7 @@ class SphereView {
         return surface_around_axis(sphere, sine_of_versine(versine), R(1 - versine), unit_circle(u.y));
     }
 
-    // Of the point in the direction of a unit vector w.
+    // The surface at the point in the direction of a unit vector w.
     template <Real R>
     [[nodiscard]] LUMIS_INLINE SurfacePoint<R> surface(const Sphere<T>& sphere, const Direction<R>& w,
                                                        const SurfaceHit<R>&) const noexcept {
@@ -141,7 +142,7 @@ class SphereView {
     }
 
   private:
-    // Of the point in a direction at a polar angle from the axis, and at a turn around it given as (cos, sin).
+    // The surface at the point in a direction at a polar angle from the axis, and at a turn around it given as (cos, sin).
     //
     //            P        With the angle theta at the reference point O and gamma at P, the normal at P is gamma - theta away
     //     O ------- C     from CO, or from inside gamma + theta from OC. The distance from C to the line OP is r sin(gamma).
