@@ -16,7 +16,6 @@
 
 namespace lumis::LUMIS_ISA {
 
-// The position lies on the shape within two units in the last place of its largest coordinate, and where it lies on it is as
 // The position is that of the coordinates within 3 units in the last place of the shape's largest coordinate, 6 on a sphere,
 // however far away the light is; no ray is followed there. Where it lies on the shape is as exact as what it comes from: u
 // by area and on spheres, else a rounded direction, which moves it by distance * epsilon / cos_light.
