@@ -13,7 +13,6 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -42,10 +41,10 @@ inline constexpr bool is_bounded<Bounded<Estimate>> = true;
 template <class Estimate>
 using ChannelsOf = Channels<std::remove_cvref_t<std::invoke_result_t<Estimate&>>>;
 
-// How far rounding may move a number of that size.
+// How far rounding may move a number of that size among an estimate's components.
 template <class Estimate>
-[[nodiscard]] double rounding_of(double number) noexcept {
-    return 4 * double{std::numeric_limits<typename ChannelsOf<Estimate>::Scalar>::epsilon()} * std::abs(number);
+[[nodiscard]] double rounding_of_estimate(double number) noexcept {
+    return rounding_of<typename ChannelsOf<Estimate>::Scalar>(number);
 }
 
 // What means are, if all is right: of numbers in [low, high], give or take `slack`, within `errors` of the answers.
@@ -125,10 +124,11 @@ template <class Estimate, class Answer, std::same_as<Sequential> Options>
     constexpr std::size_t components = detail::ChannelsOf<Estimate>::number;
     static_assert(detail::Channels<Answer>::number == components, "the answer has as many components as an estimate");
     const double largest = (std::max)(std::abs(estimate.low), std::abs(estimate.high));
-    detail::Means<components> means{estimate.low, estimate.high, detail::rounding_of<Estimate>(largest), {}, {}};
+    detail::Means<components> means{
+        estimate.low, estimate.high, detail::rounding_of_estimate<Estimate>(largest), {}, {}};
     for (std::size_t i = 0; i < components; ++i) {
         means.answers[i] = detail::Channels<Answer>::get(answer, static_cast<int>(i));
-        means.errors[i] = answer_error + detail::rounding_of<Estimate>(means.answers[i]);
+        means.errors[i] = answer_error + detail::rounding_of_estimate<Estimate>(means.answers[i]);
     }
     return detail::means_are(means, options, [&] { return detail::numbers_of(estimate.estimate); });
 }
@@ -140,7 +140,7 @@ template <class First, class Second, std::same_as<Sequential> Options>
     static_assert(detail::ChannelsOf<Second>::number == components, "both estimates have as many components");
     const double low = first.low - second.high, high = first.high - second.low;
     detail::Means<components> means{low, high, 0, {}, {}};
-    means.slack = detail::rounding_of<First>((std::max)(std::abs(low), std::abs(high)));
+    means.slack = detail::rounding_of_estimate<First>((std::max)(std::abs(low), std::abs(high)));
     means.errors.fill(means.slack);
     return detail::means_are(means, options, [&] {
         auto numbers = detail::numbers_of(first.estimate);

@@ -18,8 +18,8 @@
 
 namespace lumis::LUMIS_ISA::testing {
 
-// The probability of every cell, the rest being that of drawing nothing, and by how much
-// the quadrature may be off in it.
+// The probability of every cell, and by how much the quadrature may be off in it. What is left to 1 is the probability of
+// drawing nothing.
 template <class Point>
 struct Expectation {
     Cells<Point> cells;

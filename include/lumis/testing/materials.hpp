@@ -81,10 +81,10 @@ using BsdfChannels = Channels<decltype(ask(std::declval<const F&>(), glm::dvec3{
 }  // namespace detail
 
 struct WeightOptions {
-    // Both in units in the last place. By how much a point may be off from the one that the weight belongs to: f cos / pdf at
-    // the point and at its neighbours that far away must bracket the weight.
+    // By how much a point may be off from the one that the weight belongs to, in units in the last place: f cos / pdf at the
+    // point and at its neighbours that far away must bracket the weight.
     double rounding = 4;
-    double tolerance = 256;  // of the weight, relative
+    double tolerance = 256;  // of the weight, relative, in units in the last place
     int samples = 10'000;    // at random uniforms, after all combinations of corner values
     std::uint64_t seed = 1;
 };
@@ -204,11 +204,11 @@ template <Bsdf F>
 
 struct EnergyOptions {
     double most = 1;       // of what comes in
-    double tolerance = 0;  // absolute; integration_tolerance of what f returns if 0
+    double tolerance = 0;  // absolute; bsdf_tolerance of what f returns if 0
 };
 
-// The integral of f(wo, wi) |wi.z| over wi is at most 1: the share of light from wo that leaves again. The chart should be dense
-// where the lobe is, and hold the whole sphere if f transmits. number: the integral, of a colour's
+// The integral of f(wo, wi) |wi.z| over wi, the share of light from wo that leaves again, is at most 1, or options.most. The
+// chart should be dense where the lobe is, and hold the whole sphere if f transmits. number: the integral, of a colour's
 // brightest component. Undecided if the quadrature may be off by the excess.
 template <Bsdf F>
 [[nodiscard]] LawResult conserves_energy(const F& f, const glm::dvec3& wo, const DirectionChart& chart = sphere_chart(),

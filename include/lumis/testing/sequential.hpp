@@ -70,7 +70,8 @@ template <class Point>
 class DistributionEvidence {
   public:
     DistributionEvidence(const Expectation<Point>& expected, double at_most, double thinnest)
-        : drawn_{total(expected.masses)},
+        : cells_{expected.cells.size()},
+          drawn_{total(expected.masses)},
           nothing_{0, 1, (std::max)(1 - drawn_.value, 0.0), drawn_.error + 1 / at_most} {
         const auto& cells = expected.cells;
         for (const std::size_t parts : {std::size_t{3}, std::size_t{8}, cells.size()}) {
@@ -78,10 +79,10 @@ class DistributionEvidence {
         }
     }
 
-    // The cell, or the number of cells if nothing was drawn.
-    void add(std::size_t cell, std::size_t cells) noexcept {
-        nothing_.add(cell == cells ? 1 : 0);
-        if (cell == cells) return;
+    // The cell of a sample, the number of cells if nothing was drawn.
+    void add(std::size_t cell) noexcept {
+        nothing_.add(cell == cells_ ? 1 : 0);
+        if (cell == cells_) return;
         for (auto& [pool_of_cell, evidence] : resolutions_) evidence.add(pool_of_cell[cell]);
     }
 
@@ -117,6 +118,7 @@ class DistributionEvidence {
         resolutions_.push_back({std::move(pool_of_cell), CellEvidence{std::move(probabilities)}});
     }
 
+    std::size_t cells_;
     Integral drawn_;
     MeanEvidence nothing_;
     std::vector<Resolution> resolutions_;
@@ -124,7 +126,8 @@ class DistributionEvidence {
 
 }  // namespace detail
 
-// The type of the options is deduced in what follows, so that numbers in braces stay the options of a law of fixed size.
+// Options is deduced, though it can only be Sequential: numbers in braces, chi_square(s, chart, {1000, 1}), are thus the
+// options of the law of a fixed number of samples.
 
 // The law chi_square, looked at after every few samples: see there. Undecided if the errors of the expectation would be seen in
 // as many samples as are taken at most.
@@ -135,14 +138,13 @@ template <Strategy S, class Point, std::same_as<Sequential> Options>
     const auto at_most = static_cast<double>(options.at_most);
     if (const auto refused = detail::refused(expected, at_most, thinnest)) return {*refused, 0};
 
-    const std::size_t cells = expected.cells.size();
     Uniforms<std::mt19937_64, typename S::Scalar> uniforms{std::mt19937_64{options.seed}};
     detail::Observed<Point> observed{expected};
     detail::DistributionEvidence<Point> evidence{expected, at_most, thinnest};
     const auto take = [&] {
         const auto u = uniforms.template next<S::dimensions>();
         const auto cell = observed.add(strategy.sample(u), u);
-        if (cell) evidence.add(*cell, cells);
+        if (cell) evidence.add(*cell);
         return cell.has_value();
     };
     auto result = detail::watched(options, take, [&] { return evidence.log(); });

@@ -12,14 +12,13 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <type_traits>
 
 namespace lumis::LUMIS_ISA::testing {
 
 // first() and second() yield independent estimates, numbers or colours of as many components; those of a pair may share their
-// random numbers, which makes the test sharper. Two-sided z-test of the mean difference of pairs, of which
-// there are options.samples. What is relative in the result is so to the first's mean. number: the p-value.
+// random numbers, which makes the test sharper. Two-sided z-test of the mean difference of options.samples pairs. What is
+// relative in the result is relative to the first's mean. number: the p-value.
 template <std::invocable First, std::invocable Second>
 [[nodiscard]] UnbiasedResult agreement(First&& first, Second&& second, const UnbiasedOptions& options = {}) {
     using Channels = detail::Channels<std::remove_cvref_t<decltype(first())>>;
@@ -46,7 +45,7 @@ template <std::invocable First, std::invocable Second>
     return detail::worst_component<Channels::number>([&](int channel) {
         const auto& [x, y, difference] = components[static_cast<std::size_t>(channel)];
         const double mean = x.mean();
-        const double rounding = 4 * double{std::numeric_limits<typename Channels::Scalar>::epsilon()} * std::abs(mean);
+        const double rounding = detail::rounding_of<typename Channels::Scalar>(mean);
         auto law = detail::z_test(difference, 0, options.answer_error + rounding, significance, std::abs(mean));
         law.message = detail::text("means ", mean, " and ", y.mean(), ", their difference: ", law.message);
         return law;

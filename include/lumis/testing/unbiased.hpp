@@ -47,6 +47,12 @@ struct Channels<glm::vec<N, T, Q>> {
     }
 };
 
+// How far rounding may move a number of that size, in the type Scalar.
+template <class Scalar>
+[[nodiscard]] double rounding_of(double number) noexcept {
+    return 4 * double{std::numeric_limits<Scalar>::epsilon()} * std::abs(number);
+}
+
 // Two-sided z-test of a mean. scale: of what the relative figures are a share.
 [[nodiscard]] inline UnbiasedResult z_test(const RunningMoments<double>& moments, double answer, double answer_error,
                                            const Significance& significance, double scale) {
@@ -119,7 +125,7 @@ template <class Estimate, class Answer>
     significance.family *= channels;
     return detail::worst_component<channels>([&](int channel) {
         const double exact = detail::Channels<Answer>::get(answer, channel);
-        const double rounding = 4 * double{std::numeric_limits<typename Channels::Scalar>::epsilon()} * std::abs(exact);
+        const double rounding = detail::rounding_of<typename Channels::Scalar>(exact);
         return detail::z_test(moments[static_cast<std::size_t>(channel)], exact, options.answer_error + rounding,
                               significance, std::abs(exact));
     });
