@@ -28,8 +28,7 @@ class Mixture {
     static constexpr bool knows_surface = detail::KnowSurface<S0, std::remove_cvref_t<Rest>...>;
 
     template <class X, Real R, bool with_distance>
-    using SampleOf = std::conditional_t<!with_distance, Sample<X, R>,
-                                        std::conditional_t<knows_surface, SurfaceLightSample<X, R>, LightSample<X, R>>>;
+    using SampleOf = detail::SampleOfSeveral<X, R, with_distance, knows_surface>;
 
     static constexpr std::size_t size = 1 + sizeof...(Rest);
     static constexpr int part_dimensions = real::largest_of(

@@ -93,9 +93,7 @@ class VariantStrategy<std::variant<First, Rest...>> {
     // Where one alternative is a light, all samples have a distance: infinity for what has none. Where one tells its surface,
     // all samples have one: zeros for what does not.
     template <Real R, bool with_distance>
-    using SampleIn = std::conditional_t<
-        !with_distance, Sample<PointAt<R>, R>,
-        std::conditional_t<knows_surface, SurfaceLightSample<PointAt<R>, R>, LightSample<PointAt<R>, R>>>;
+    using SampleIn = detail::SampleOfSeveral<PointAt<R>, R, with_distance, knows_surface>;
 
     // f(the strategy); `none` of a variant that an exception has left without one.
     template <class Result, class F>

@@ -97,7 +97,7 @@ class LightSet {
                     if (!(other.distance < sample.distance)) return;
                     sample.distance = other.distance;
                     sample.index = i;
-                    if constexpr (SurfaceStrategy<Light>) sample.surface = other.surface;
+                    if constexpr (detail::HasSurface<SampleType>) sample.surface = other.surface;
                 }
             });
             return sample;

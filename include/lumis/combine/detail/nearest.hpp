@@ -14,6 +14,7 @@
 #include <concepts>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace lumis::LUMIS_ISA::detail {
@@ -53,6 +54,12 @@ template <std::size_t skipped = no_index, std::size_t... I, class... S, class Po
     return nearest;
 }
 
+// The samples of several strategies as one: with a distance where one of them is a light, and with a surface where one tells it.
+template <class X, Real R, bool with_distance, bool with_surface>
+using SampleOfSeveral =
+    std::conditional_t<!with_distance, Sample<X, R>,
+                       std::conditional_t<with_surface, SurfaceLightSample<X, R>, LightSample<X, R>>>;
+
 // A strategy's own kind of sample, and how far away the nearest light is along it.
 template <class Drawn, Real R>
 struct WithDistance : Drawn {
@@ -75,13 +82,14 @@ template <class Drawn, Real R>
 // A drawn sample's own distance; infinity for one that has none.
 template <Real R>
 [[nodiscard]] LUMIS_HD R own_distance(const auto& sample) noexcept {
-    if constexpr (requires { sample.distance; }) {
+    if constexpr (HasDistance<std::remove_cvref_t<decltype(sample)>>) {
         return sample.distance;
     } else {
         return std::numeric_limits<R>::infinity();
     }
 }
 
+// The same, and the surface of that light.
 template <class Drawn, Real R>
 struct WithHit : Drawn {
     R distance;
@@ -106,7 +114,7 @@ template <class Drawn, Real R>
 // A drawn sample's own distance and surface.
 template <Real R>
 [[nodiscard]] LUMIS_HD LightHit<R> own_hit(const auto& sample) noexcept {
-    if constexpr (requires { sample.surface; }) {
+    if constexpr (HasSurface<std::remove_cvref_t<decltype(sample)>>) {
         return {sample.distance, sample.surface};
     } else {
         return {own_distance<R>(sample), {}};
