@@ -10,12 +10,8 @@
 #include "lumis/lights/shapes.hpp"
 #include "lumis/lights/surface.hpp"
 
-#include <glm/geometric.hpp>
-
 #include <concepts>
-#include <limits>
 #include <numbers>
-#include <type_traits>
 
 namespace lumis::LUMIS_ISA {
 
