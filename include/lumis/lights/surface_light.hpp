@@ -2,7 +2,7 @@
 // emitters. It is used as AreaLight is, made anew at each point:
 //
 //     const SurfaceLight light{triangle, point};                                    // evenly by area
-//     const SurfaceLight<Triangle<float>, BySolidAngle> near{triangle, point, Sides::One};
+//     const SurfaceLight<Triangle<float>, BySolidAngle> by_angle{triangle, point, Sides::One};
 //     const auto s = light.sample(u);                                               // s.surface.uv
 //
 // Where such lights are combined with other techniques, an integrand that takes the whole sample is told the surface of the
