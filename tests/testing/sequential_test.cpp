@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -144,6 +145,15 @@ TEST_CASE("a bound that does not hold is no promise", "[laws]") {
     CHECK_FALSE(laws::unbiased(laws::Bounded{1, 1, unbounded}, 1, laws::Sequential{}).passed);
     CHECK(laws::unbiased(laws::Bounded{0, 1, unbounded}, 1, laws::Sequential{0.01, 1000}));
     CHECK_FALSE(laws::unbiased(laws::Bounded{0, 1, unbounded}, 1, laws::Sequential{0.01, 0}).decided);
+    // Nobody can bet where the width of the bound is no number.
+    constexpr double infinity = std::numeric_limits<double>::infinity(), largest = (std::numeric_limits<double>::max)();
+    CHECK_FALSE(laws::unbiased(laws::Bounded{0, infinity, unbounded}, 0.9, laws::Sequential{0.01, 100}).decided);
+    CHECK_FALSE(laws::unbiased(laws::Bounded{-largest, largest, unbounded}, 0.9, laws::Sequential{0.01, 100}).decided);
+    // A float rounds as a float does, whichever of two estimates it is.
+    const laws::Bounded none{0, 1.0 / 3, [] { return 0.0; }};
+    const laws::Bounded third{0, 1.0 / 3, [] { return 1.0f / 3; }};
+    CHECK(laws::agreement(none, third, laws::Sequential{0.01, 100}).decided);
+    CHECK(laws::agreement(third, none, laws::Sequential{0.01, 100}).decided);
 }
 
 // 300 runs at 5 %: Ville's inequality allows 15 on average, and more than 30 come about once in 10,000 times.

@@ -59,8 +59,8 @@ template <std::size_t N, class Draw>
 [[nodiscard]] SequentialResult means_are(const Means<N>& means, const Sequential& options, const Draw& draw) {
     SequentialResult result;
     result.decided = false;
-    result.message = text("there are no numbers from ", means.low, " to ", means.high);
-    if (!(means.low < means.high)) return result;
+    result.message = text("no bets can be laid on numbers from ", means.low, " to ", means.high);
+    if (!(means.low < means.high && std::isfinite(means.high - means.low))) return result;
 
     std::vector<MeanEvidence> evidence;
     std::array<RunningMoments<double>, N> moments;
@@ -140,7 +140,9 @@ template <class First, class Second, std::same_as<Sequential> Options>
     static_assert(detail::ChannelsOf<Second>::number == components, "both estimates have as many components");
     const double low = first.low - second.high, high = first.high - second.low;
     detail::Means<components> means{low, high, 0, {}, {}};
-    means.slack = detail::rounding_of_estimate<First>((std::max)(std::abs(low), std::abs(high)));
+    const double largest = (std::max)(std::abs(low), std::abs(high));
+    means.slack =
+        (std::max)(detail::rounding_of_estimate<First>(largest), detail::rounding_of_estimate<Second>(largest));
     means.errors.fill(means.slack);
     return detail::means_are(means, options, [&] {
         auto numbers = detail::numbers_of(first.estimate);
