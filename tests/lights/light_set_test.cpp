@@ -286,3 +286,48 @@ TEMPLATE_TEST_CASE("a set's sample tells the index of the light that is seen", "
     for (std::size_t i = 0; i < 4; ++i)
         CHECK(direct.estimate(by_index, lanes)[i] == direct.estimate(by_point, lanes)[i]);
 }
+
+// 1 for a light of the set that is hidden, 10 for its second, 0 for other samples: as the index tells, or as is expected.
+template <class T>
+struct IndexSeen {
+    using V = glm::vec<3, T>;
+    bool expected;
+
+    T operator()(const lumis::IndexedSample<lumis::LightSample<V, T>>& s) const {
+        if (expected) return s.value.z > 0 ? T(1) : T(10);
+        return s.index == lumis::no_light ? T(1) : s.index == 1 ? T(10) : T(0);
+    }
+    T operator()(const lumis::LightSample<V, T>&) const { return 0; }
+    T operator()(const lumis::SurfaceLightSample<V, T>&) const { return 0; }
+};
+
+// A light that is none of the set stands before all of its upper lights, and before no other.
+TEMPLATE_TEST_CASE("a set's light behind another light is not the one that is seen", "[light_set]", float, double) {
+    using T = TestType;
+    using V = glm::vec<3, T>;
+    using L = lumis::Lanes<T, 4>;
+    const auto parallelogram = [](T half, T height) {
+        return lumis::Parallelogram<T>{V(-half, -half, height), V(2 * half, 0, 0), V(0, 2 * half, 0)};
+    };
+    const std::vector lights{lumis::AreaLight{parallelogram(T(2), T(2)), V(T(0))},
+                             lumis::AreaLight{parallelogram(T(2), T(-2)), V(T(0))}};
+    const lumis::LightSet set{lights, std::vector<T>{1, 1}};
+    const IndexSeen<T> told{false}, expected{true};
+    const auto check = [&](const auto& in_front) {
+        const auto both =
+            lumis::multi_sample(lumis::EqualWeights{}, lumis::take(1, set), lumis::take(1, std::cref(in_front)));
+        CountingUniforms<T> uniforms, again;
+        for (int i = 0; i < 50; ++i) REQUIRE(both.estimate(told, uniforms) == both.estimate(expected, again));
+        glm::vec<3, L> u;
+        for (int k = 0; k < 3; ++k) {
+            for (std::size_t lane = 0; lane < 4; ++lane) {
+                u[k].set(lane, uniforms.template next<3>()[k]);
+            }
+        }
+        const Repeated<glm::vec<3, L>> lanes{u};
+        const auto found = both.estimate(told, lanes), wanted = both.estimate(expected, lanes);
+        for (std::size_t lane = 0; lane < 4; ++lane) CHECK(found[lane] == wanted[lane]);
+    };
+    check(lumis::AreaLight{parallelogram(T(1.5), T(1)), V(T(0))});
+    check(lumis::SurfaceLight{parallelogram(T(1.5), T(1)), V(T(0))});
+}

@@ -114,6 +114,8 @@ TEMPLATE_TEST_CASE("a light of one's own shape obeys the laws", "[own_shape]", f
     check(laws::batch_agrees(light));
     check(laws::chi_square(light));
     STATIC_REQUIRE(lumis::detail::SamplesLanes<std::remove_const_t<decltype(light)>, lumis::NativeLanes<T>>);
+    const mine::Ring<T> ring{{T(0.3), T(-0.2), T(2)}, T(0.5), T(1)};
+    CHECK(lumis::pdf_from_hit(ring, {0, 0, 0}, T(2.5), T(-0.8)) == light.pdf_from_hit(T(2.5), T(-0.8)));
 }
 
 TEST_CASE("a shape for numbers alone, in a batch too", "[own_shape]") {

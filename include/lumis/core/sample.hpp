@@ -34,7 +34,9 @@ struct LightSample {
     Scalar distance{};
 };
 
-// A sample of one of several lights, and its index: in lanes an array of them.
+// A sample of one of several lights, and its index: in lanes an array of them. no_light where a light that is none of them
+// stands in front.
+inline constexpr std::size_t no_light = ~std::size_t{};
 template <class Drawn, class Index = std::size_t>
 struct IndexedSample : Drawn {
     Index index{};

@@ -4,6 +4,7 @@
 //     const float light_pdf = choice.pdf(i) * lumis::pdf_from_hit<lumis::BySolidAngle>(shapes[i], origin, distance, cos_light);
 #pragma once
 
+#include "lumis/core/assert.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/lights/area_light.hpp"
 #include "lumis/lights/detail/hit_density.hpp"
@@ -24,6 +25,8 @@ template <class Sampling = ByArea, Shape S>
     typename S::Scalar cos_light, Sides sides = Sides::Both) noexcept {
     using T = typename S::Scalar;
     if constexpr (std::same_as<Sampling, BySolidAngle>) {
+        static_assert(std::same_as<S, Triangle<T>> || std::same_as<S, Parallelogram<T>> || std::same_as<S, Sphere<T>>,
+                      "by solid angle are drawn Triangle, Parallelogram and Sphere: write pdf_from_hit<ByArea>");
         return detail::density_by_solid_angle(shape, reference_point, sides);
     } else if constexpr (std::same_as<S, Triangle<T>> || std::same_as<S, Parallelogram<T>>) {
         return detail::density_by_area(detail::seen_area(detail::FlatShape<S>{shape, reference_point}, sides), distance,
@@ -36,8 +39,11 @@ template <class Sampling = ByArea, Shape S>
         return real::select(seen, pdf, 0);
     } else if (sides == Sides::Both) {
         return AreaLight<S, Sampling>{shape, reference_point}.pdf_from_hit(distance, cos_light);
-    } else {
+    } else if constexpr (detail::SeenFromSides<S>) {
         return AreaLight<S, Sampling>{shape, reference_point, sides}.pdf_from_hit(distance, cos_light);
+    } else {
+        LUMIS_ASSERT(sides == Sides::Both);  // a shape that has no seen_from(point, sides) has no single side
+        return 0;
     }
 }
 

@@ -60,6 +60,21 @@ using SampleOfSeveral =
     std::conditional_t<!with_distance, Sample<X, R>,
                        std::conditional_t<with_surface, SurfaceLightSample<X, R>, LightSample<X, R>>>;
 
+// A sample of a set whose light lies behind another strategy's, which is `nearest`, has the index of none.
+template <class Drawn, Real R>
+LUMIS_HD void forget_hidden(Drawn& sample, const R& nearest) noexcept {
+    if constexpr (requires { sample.index; }) {
+        const auto hidden = nearest < sample.distance;
+        if constexpr (std::floating_point<R>) {
+            if (hidden) sample.index = no_light;
+        } else {
+            for (std::size_t i = 0; i < R::size; ++i) {
+                if (hidden[i]) sample.index[i] = no_light;
+            }
+        }
+    }
+}
+
 // A strategy's own kind of sample, and how far away the nearest light is along it.
 template <class Drawn, Real R>
 struct WithDistance : Drawn {
@@ -70,6 +85,7 @@ template <class Drawn, Real R>
 [[nodiscard]] LUMIS_HD auto with_distance(const Drawn& sample, R distance) noexcept {
     if constexpr (HasDistance<Drawn>) {
         Drawn result{sample};
+        forget_hidden(result, distance);
         result.distance = distance;
         return result;
     } else if constexpr (std::same_as<Drawn, Sample<decltype(Drawn::value), R>>) {
@@ -101,13 +117,16 @@ template <class Drawn, Real R>
     using Point = decltype(Drawn::value);
     if constexpr (HasSurface<Drawn>) {
         Drawn result{sample};
+        forget_hidden(result, hit.distance);
         result.distance = hit.distance;
         result.surface = hit.surface;
         return result;
     } else if constexpr (std::same_as<Drawn, Sample<Point, R>> || std::same_as<Drawn, LightSample<Point, R>>) {
         return SurfaceLightSample<Point, R>{sample.value, sample.pdf, hit.distance, hit.surface};
     } else {
-        return WithHit<Drawn, R>{sample, hit.distance, hit.surface};
+        WithHit<Drawn, R> result{sample, hit.distance, hit.surface};
+        forget_hidden(static_cast<Drawn&>(result), hit.distance);
+        return result;
     }
 }
 
