@@ -29,8 +29,8 @@ class WeightedSample {
                                           R effective_density)
         : sample{drawn}, density{effective_density}, estimator_{&estimator} {}
 
-    // The MIS weight among all techniques; asks each of the others for its density. 1 for a delta strategy's sample, 0 where
-    // nothing was drawn.
+    // The MIS weight among all techniques; asks each of the others for its density. 1 for a delta strategy's sample. 0 where
+    // nothing was drawn, except by PartitionWeights, which ask the point alone.
     [[nodiscard]] LUMIS_INLINE R weight() const noexcept { return weight_given<>(); }
 
     // The same where the host knows the densities of the strategies K..., from what the sample's ray has hit:
