@@ -89,7 +89,7 @@ def instructions_of_run(binary, kernel, passes):
 
 
 def count_instructions(binary, kernel):
-    """Of an item; None if the kernel is not counted, or has an instruction that valgrind does not know."""
+    """Instructions of an item; None if the kernel is not counted, or has an instruction that valgrind does not know."""
     if kernel.startswith("build/") or UNCOUNTED.search(kernel):
         return None
     few, many = 2, 34

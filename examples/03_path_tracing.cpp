@@ -113,7 +113,7 @@ float radiance(const vec3& origin, vec3 direction, const lumis::AliasTable<float
             }
         }
 
-        // On along the BSDF. Nothing drawn means that the path is absorbed: that counts, as a contribution of 0.
+        // The path goes on along the BSDF. Nothing drawn means that the path is absorbed: that counts, as a contribution of 0.
         const auto next = direct.template weighted_sample<0>(uniforms);
         if (!(next.density > 0)) return sum;
         throughput *= hit.material->reflected(wo, frame.to_local(next.sample.value)) / next.density;

@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def tool(name, compiler):
-    """Of the compiler's own version, for counters are read by no other."""
+    """The tool of the compiler's own version, for no other reads its counters."""
     version = re.search(r"version (\d+)", subprocess.run([compiler, "--version"], capture_output=True, text=True).stdout)[1]
     found = shutil.which(f"{name}-{version}") or shutil.which(name)
     return found or sys.exit(f"{name} is missing: apt-get install llvm-{version}")

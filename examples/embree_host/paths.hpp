@@ -40,7 +40,7 @@ template <class Parts>
             }
         }
 
-        // On along the BSDF. Nothing drawn counts, as 0.
+        // The path goes on along the BSDF. Nothing drawn counts, as 0.
         const auto next = bsdf.draw(sampler);
         if (!(next.pdf > 0)) return sum;
         throughput = 1 / next.pdf * throughput * material->reflected(hit->normal, wo, next.direction);

@@ -25,7 +25,7 @@ struct View {
     }
 };
 
-// Of examples/data/room.obj.
+// The camera for examples/data/room.obj.
 inline constexpr View room_view{{1.2f, 1.35f, 5.4f}, {-0.1f, 1.0f, -0.5f}, 38, 480, 360};
 
 // Row by row from the top. Images of different seeds are independent.

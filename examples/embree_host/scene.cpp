@@ -63,7 +63,7 @@ Scene::Scene(const std::string& obj_file, Sky its_sky)
     rtcCommitScene(embree_.get());
 }
 
-// From a little off the surface that the ray leaves.
+// The ray starts a little off the surface that it leaves.
 static RTCRay embree_ray(const Vec& origin, const Vec& direction, float distance) {
     const float nearest = 1e-4f * (1 + length(origin));
     return {origin.x, origin.y, origin.z, nearest, direction.x, direction.y, direction.z, 0, distance, ~0u, 0, 0};

@@ -92,7 +92,7 @@ TEMPLATE_TEST_CASE("the surface along a direction", "[surface_light]", float, do
         auto uniforms = irradiance::uniforms<T>(2);
         for (int i = 0; i < 300; ++i) {
             const auto s = light.sample(uniforms.template next<2>());
-            // On spheres the rim is a blur.
+            // The rim of a sphere is a blur.
             if (!(s.pdf > 0) || std::abs(glm::dot(s.value, s.surface.normal)) < T(0.1)) continue;
             const auto hit = light.hit_along(s.value);
             REQUIRE(hit.distance == light.distance_along(s.value));

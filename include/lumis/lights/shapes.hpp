@@ -9,7 +9,7 @@
 
 namespace lumis::LUMIS_ISA {
 
-// From where a light is seen: from both sides of its surface, or only from the one to which the geometric normal points.
+// The sides from which a light is seen: both, or only the one to which the geometric normal points.
 // Behind a light of one side, or inside such a sphere, nothing is drawn and every density is 0.
 enum class Sides { Both, One };
 

@@ -28,7 +28,7 @@ struct Expectation {
 
 namespace detail {
 
-// By how much the probability of a cell may be off. The squares of such errors add up to 1e-3 samples for each cell of the
+// The error that the probability of a cell may have. The squares of such errors add up to 1e-3 samples for each cell of the
 // statistic, so that 1e5 samples, as many as usual, do not see them.
 [[nodiscard]] inline double harmless_error(double mass) {
     return 1e-4 * std::sqrt(std::fmax(mass, 1e-4));

@@ -81,7 +81,7 @@ using BsdfChannels = Channels<decltype(ask(std::declval<const F&>(), glm::dvec3{
 }  // namespace detail
 
 struct WeightOptions {
-    // By how much a point may be off from the one that the weight belongs to, in units in the last place: f cos / pdf at the
+    // The distance of a point from the one that the weight belongs to, at most, in units in the last place: f cos / pdf at the
     // point and at its neighbours that far away must bracket the weight.
     double rounding = 4;
     double tolerance = 256;  // of the weight, relative, in units in the last place
