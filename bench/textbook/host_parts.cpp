@@ -56,15 +56,16 @@ int main(int argc, char** argv) {
     const int samples = argc > 2 ? std::atoi(argv[2]) : 16;
     const host::Scene scene{LUMIS_EXAMPLES_DATA "/room.obj",
                             host::read_sky(LUMIS_EXAMPLES_DATA "/venice_sunset_1k.hdr")};
-    const textbook::HostParts textbook{scene};
+    const textbook::HostParts textbook{scene}, by_power{scene, textbook::LightsBy::Power};
     const host::LumisParts lumis{scene};
     std::printf("| | parts | relative MSE | CPU seconds | error x time |\n| --- | --- | ---: | ---: | ---: |\n");
     for (const int bounces : {1, 8}) {
-        const std::array both = costs(scene, view, samples, bounces, textbook, lumis);
-        for (const Cost& cost : both) {
-            std::printf("| %s | %s | %.3g | %.3g | %.2f |\n", bounces == 1 ? "direct light" : "8 bounces",
-                        &cost == &both[0] ? "textbook" : "Lumis", cost.error, cost.seconds,
-                        cost.error * cost.seconds / (both[0].error * both[0].seconds));
+        const std::array all = costs(scene, view, samples, bounces, textbook, by_power, lumis);
+        const std::array names{"textbook", "textbook, lights by power", "Lumis"};
+        for (std::size_t part = 0; part < all.size(); ++part) {
+            std::printf("| %s | %s | %.3g | %.3g | %.2f |\n", bounces == 1 ? "direct light" : "8 bounces", names[part],
+                        all[part].error, all[part].seconds,
+                        all[part].error * all[part].seconds / (all[0].error * all[0].seconds));
         }
     }
 }

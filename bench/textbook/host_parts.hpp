@@ -1,4 +1,4 @@
-// What examples/embree_host asks of LumisParts, as books have it: a light chosen by area, a point of a triangle by a square root
+// What examples/embree_host asks of LumisParts, as books have it: a light chosen by area or by power, a point of a triangle by a square root
 // (Pharr, Jakob and Humphreys 2023, section 6.5.4), a sky by its luminance times the sine, GGX by its microfacets (Walter et al.
 // 2007, eq. 35, 36 and 38), the power heuristic from squares.
 #pragma once
@@ -49,11 +49,14 @@ struct Bsdf {
     }
 };
 
+enum class LightsBy { Area, Power };
+
 class HostParts {
   public:
-    explicit HostParts(const host::Scene& scene)
+    explicit HostParts(const host::Scene& scene, LightsBy lights_by = LightsBy::Area)
         : scene_{scene},
-          areas_{areas(scene)},
+          lights_by_{lights_by},
+          weights_{weights()},
           sky_{static_cast<std::size_t>(scene.sky.width), static_cast<std::size_t>(scene.sky.height),
                luminances(scene.sky)} {}
 
@@ -65,7 +68,7 @@ class HostParts {
             const Vec direction = host::from_lumis(drawn.value);
             return {direction, sky_share * drawn.pdf, drawn.distance, scene_.sky.radiance(direction)};
         }
-        const auto chosen = areas_.sample((choice - sky_share) / (1 - sky_share));
+        const auto chosen = weights_.sample((choice - sky_share) / (1 - sky_share));
         const host::Triangle& light = scene_.light(chosen.index);
         const float root = std::sqrt(u.x);
         const Vec to_light =
@@ -88,11 +91,18 @@ class HostParts {
     static constexpr float sky_share = 0.5f;
 
     [[nodiscard]] float density(const host::Triangle& light, float distance, const Vec& direction) const {
-        return (1 - sky_share) / area_ * distance * distance / std::abs(dot(light.normal(), direction));
+        const float density_of_area = (1 - sky_share) * weight_of_area(light) / total_;
+        return density_of_area * distance * distance / std::abs(dot(light.normal(), direction));
     }
-    static std::vector<float> areas(const host::Scene& scene) {
+    [[nodiscard]] float weight_of_area(const host::Triangle& light) const {
+        return lights_by_ == LightsBy::Area ? 1.0f : luminance(scene_.material(light).emission);
+    }
+    [[nodiscard]] std::vector<float> weights() const {
         std::vector<float> result;
-        for (const std::size_t i : scene.lights) result.push_back(scene.triangles[i].area());
+        for (const std::size_t i : scene_.lights) {
+            const host::Triangle& light = scene_.triangles[i];
+            result.push_back(light.area() * weight_of_area(light));
+        }
         return result;
     }
     static std::vector<float> luminances(const host::Sky& sky) {
@@ -102,8 +112,9 @@ class HostParts {
     }
 
     const host::Scene& scene_;
-    PiecewiseConstant1D<float> areas_;
-    float area_ = areas_.integral() * static_cast<float>(areas_.size());
+    LightsBy lights_by_;
+    PiecewiseConstant1D<float> weights_;
+    float total_ = weights_.integral() * static_cast<float>(weights_.size());
     EnvironmentMap<float> sky_;
 };
 
