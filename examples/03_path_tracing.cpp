@@ -93,7 +93,7 @@ float radiance(const vec3& origin, vec3 direction, const lumis::AliasTable<float
     Hit hit = closest(origin, direction);
     float sum = hit.material->emitted(-glm::dot(hit.normal, direction)), throughput = 1;
     while (true) {
-        // Two techniques share what a ball emits towards this vertex. Of the lights, one is chosen and sampled.
+        // Two techniques share what a ball emits towards this vertex. One of the lights is chosen and sampled.
         const lumis::Frame<float> frame{hit.normal};
         const vec3 wo = frame.to_local(-direction);
         const auto seen_from_here = [&](std::size_t i) { return Light{balls[i].shape, hit.position}; };

@@ -59,7 +59,7 @@ class OneSample : public Combination<H, S...> {
 
     // For hosts that go on with the sample, as a path does: selects a technique, draws from it, and calls visit(s) with a
     // WeightedSample, which knows its technique and whether that is a delta strategy. Returns whether anything was drawn: else
-    // visit is not called. Spends what an estimate does. Of numbers: lanes select techniques of their own.
+    // visit is not called. Spends what an estimate does. Takes numbers alone: lanes select techniques of their own.
     template <class U, class Visit>
     requires UniformSource<U, Scalar> LUMIS_HD bool weighted_sample(U&& uniforms, Visit&& visit) const {
         static_assert(std::floating_point<RealFrom<U, Scalar>>, "lanes are drawn by weighted_sample<I>(uniforms)");
