@@ -60,6 +60,14 @@ concept NoTechnique = std::is_class_v<H> && !requires(const H technique) {
 template <class H, class... S>
 concept NeverAsked = (number_of_smooth<S...> <= 1) && NoTechnique<H>;
 
+// What a sample tells: f there, where something was drawn, and the density of every strategy.
+template <class Value, Real R, std::size_t N>
+struct Observation {
+    Value value;
+    MaskOf<R> drawn;
+    std::array<R, N> densities;
+};
+
 // A heuristic that gives what can be drawn a positive weight: it need not be compared to 0.
 template <class H>
 concept AlwaysPositive = requires {
@@ -158,6 +166,18 @@ class Combination {
         }
     }
 
+    // The same sample as it is: unweighted f, and the densities p_k without their factors, those of factor 0 too.
+    template <std::size_t I, Real R, class F>
+    [[nodiscard]] LUMIS_INLINE auto observe(F& f, const glm::vec<Nth<I>::dimensions, R>& u,
+                                            const MaskOf<R>& selected = true) const {
+        using S = Nth<I>;
+        if constexpr (takes_point<F, R, I> && detail::SamplesPoints<S>) {
+            return observation<I, R>(f, detail::sample_point_in<R>(strategy<I>(), u), selected);
+        } else {
+            return observation<I, R>(f, detail::sample_in<R>(strategy<I>(), u), selected);
+        }
+    }
+
     // Converts a contribution to the type of technique 0's.
     template <class Value, class Drawn>
     [[nodiscard]] LUMIS_INLINE static Value as_value(const Drawn& drawn) {
@@ -167,6 +187,7 @@ class Combination {
     }
 
     [[nodiscard]] LUMIS_HD constexpr Scalar factor(std::size_t i) const noexcept { return factors_[i]; }
+    [[nodiscard]] LUMIS_HD constexpr const std::array<Scalar, size>& factors() const noexcept { return factors_; }
 
   private:
     template <class, std::size_t, class, Real>
@@ -213,6 +234,37 @@ class Combination {
                 decltype(auto) result = detail::evaluate_in<false, I, R>(f, whole, drawn);
                 return detail::selected(drawn, detail::scaled<Value>(result, R(weight / divisor)));
             }
+        }
+    }
+
+    template <std::size_t I, Real R, class F, class Drawn>
+    [[nodiscard]] LUMIS_INLINE auto observation(F& f, const Drawn& sample,
+                                                [[maybe_unused]] const MaskOf<R>& selected) const {
+        constexpr bool only_point = takes_point<F, R, I>;
+        using Seen = std::remove_cvref_t<decltype(seen<I, only_point, R>(sample))>;
+        using Asked = detail::Asked<F, Seen, R, false, I>;
+        if constexpr (!IntegrandOfSamples<F, typename Asked::Sample, typename Asked::Scalar, false, I>) {
+            detail::require_integrand<F, typename Asked::Sample, typename Asked::Scalar, false, I>();
+            return detail::Observation<R, R, size>{};
+        } else {
+            auto drawn = sample.pdf > 0;
+            if constexpr (!std::floating_point<R>) drawn = drawn && selected;
+            using Value = ValueOf<std::remove_cvref_t<decltype(detail::evaluate_in<false, I, R>(
+                                      f, seen<I, only_point, R>(sample), drawn))>,
+                                  R>;
+            detail::Observation<Value, R, size> result{zero<Value>::value(), drawn, {}};
+            if (!real::any(drawn)) return result;
+            detail::for_each_index<size>([&](auto k) {
+                if constexpr (k == I) {
+                    result.densities[k] = sample.pdf;
+                } else if constexpr (!is_delta<k>) {
+                    result.densities[k] = detail::pdf_in<R>(strategy<k>(), sample.value);
+                }
+            });
+            const auto& whole = seen<I, only_point, R>(sample);
+            result.value =
+                detail::selected(drawn, static_cast<Value>(detail::evaluate_in<false, I, R>(f, whole, drawn)));
+            return result;
         }
     }
 

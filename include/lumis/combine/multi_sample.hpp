@@ -51,6 +51,9 @@ class MultiSample : public Combination<H, S...> {
         return sum;
     }
 
+  protected:
+    [[nodiscard]] LUMIS_HD constexpr int count(std::size_t i) const noexcept { return counts_[i]; }
+
   private:
     std::array<int, sizeof...(S)> counts_;
 };

@@ -37,21 +37,9 @@ class OneSample : public Combination<H, S...> {
                     Base::template as_value<Value>(this->template draw<i, R>(f, detail::next_for<Part, R>(uniforms)));
             });
         } else {
-            R remaining = first_uniform<R>(uniforms);
-            const auto u = glm::vec<largest_dimensions, R>(uniforms.template next<largest_dimensions>());
-            MaskOf<R> open = true;
-            detail::for_each_index<Base::size>([&](auto i) {
-                const MaskOf<R> selected = open && remaining < this->factor(i);
-                if (real::any(selected)) {
-                    constexpr int dimensions = Base::template Nth<i>::dimensions;
-                    glm::vec<dimensions, R> own;
-                    for (int k = 0; k < dimensions; ++k) own[k] = u[k];
-                    // A lane has one contribution, all others are 0.
-                    result =
-                        Value(result + Base::template as_value<Value>(this->template draw<i, R>(f, own, selected)));
-                    open = open && !selected;
-                }
-                remaining -= this->factor(i);
+            select_in_lanes<R>(uniforms, [&](auto i, const auto& u, const MaskOf<R>& selected) {
+                // A lane has one contribution, all others are 0.
+                result = Value(result + Base::template as_value<Value>(this->template draw<i, R>(f, u, selected)));
             });
         }
         return result;
@@ -77,15 +65,7 @@ class OneSample : public Combination<H, S...> {
         return std::size_t{!is_certain()} + std::size_t{largest_dimensions};
     }
 
-  private:
-    static constexpr int largest_dimensions =
-        real::largest_of(std::array<int, sizeof...(S)>{std::remove_cvref_t<S>::dimensions...});
-
-    template <Real R, class U>
-    [[nodiscard]] LUMIS_INLINE R first_uniform(U& uniforms) const {
-        return is_certain() ? R(scalar_of<R>(0)) : glm::vec<1, R>(uniforms.template next<1>()).x;
-    }
-
+  protected:
     // Calls visit(i) with the technique that a uniform selects, if any.
     template <class U, class Visit>
     LUMIS_INLINE void select(U& uniforms, Visit visit) const {
@@ -98,6 +78,34 @@ class OneSample : public Combination<H, S...> {
             }
             remaining -= this->factor(i);
         });
+    }
+
+    // Calls visit(i, u, selected) with each technique that some lane selects, its uniforms, and the lanes that do.
+    template <Real R, class U, class Visit>
+    LUMIS_INLINE void select_in_lanes(U& uniforms, Visit visit) const {
+        R remaining = first_uniform<R>(uniforms);
+        const auto u = glm::vec<largest_dimensions, R>(uniforms.template next<largest_dimensions>());
+        MaskOf<R> open = true;
+        detail::for_each_index<Base::size>([&](auto i) {
+            const MaskOf<R> selected = open && remaining < this->factor(i);
+            if (real::any(selected)) {
+                constexpr int dimensions = Base::template Nth<i>::dimensions;
+                glm::vec<dimensions, R> own;
+                for (int k = 0; k < dimensions; ++k) own[k] = u[k];
+                visit(i, own, selected);
+                open = open && !selected;
+            }
+            remaining -= this->factor(i);
+        });
+    }
+
+  private:
+    static constexpr int largest_dimensions =
+        real::largest_of(std::array<int, sizeof...(S)>{std::remove_cvref_t<S>::dimensions...});
+
+    template <Real R, class U>
+    [[nodiscard]] LUMIS_INLINE R first_uniform(U& uniforms) const {
+        return is_certain() ? R(scalar_of<R>(0)) : glm::vec<1, R>(uniforms.template next<1>()).x;
     }
 
     [[nodiscard]] LUMIS_HD constexpr bool is_certain() const noexcept {
