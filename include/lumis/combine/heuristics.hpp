@@ -266,6 +266,66 @@ struct CutoffHeuristic {
     }
 };
 
+// Balance of the densities times a factor for each technique, positive and known at run time: BalanceWithFactors{2.0, 1.0}.
+// Their own scale does not matter. variance_aware_factor gives more to a technique whose samples vary little; where that does
+// not make up for what they leave to the others, the variance is above balance's.
+template <std::size_t N>
+struct BalanceWithFactors {
+    static constexpr bool is_positive = true;  // see BalanceHeuristic
+
+    std::array<double, N> factors;
+
+    template <Real R, std::size_t M>
+        requires(M == N || M == std::dynamic_extent)
+    [[nodiscard]] LUMIS_HD R operator()(std::size_t own, std::span<const R, M> densities) const noexcept {
+        using T = scalar_of<R>;
+        LUMIS_ASSERT(densities.size() == N);
+        std::array<R, N> products;
+        for (std::size_t k = 0; k < N; ++k) {
+            LUMIS_ASSERT(factors[k] > 0 && std::isfinite(factors[k]));
+            products[k] = static_cast<T>(factors[k]) * densities[k];
+        }
+        const std::span<const R, N> of_products{products};
+        const R sum = detail::sum_of(of_products, [](R product) { return product; });
+        if constexpr (std::floating_point<R>) {
+            if (products[own] >= detail::least_share<T> && sum <= detail::largest_sum<T>) [[likely]]
+                return real::divide(products[own], sum);
+            return at_scale<T>(own, detail::by_value(densities));
+        } else {
+            const auto settled =
+                (products[own] >= detail::least_share<T> || densities[own] == 0) && sum <= detail::largest_sum<T>;
+            const R weights = real::divide(products[own], real::divisor_where(settled && sum > 0, sum));
+            if (real::all(settled)) [[likely]]
+                return weights;
+            return detail::weight_lane_by_lane(*this, own, densities, settled, weights);
+        }
+    }
+
+  private:
+    // The densities are scaled before the factors can make them overflow or vanish.
+    template <std::floating_point T, class Densities>
+    [[nodiscard]] LUMIS_COLD T at_scale(std::size_t own, Densities densities) const noexcept {
+        const T scale = detail::scale_to_one(real::largest_of(densities));
+        std::array<T, N> products;
+        for (std::size_t k = 0; k < N; ++k) products[k] = static_cast<T>(factors[k]) * (scale * densities[k]);
+        return detail::weight_at_scale<T>(own, products, [](T p, T again) { return p * again; });
+    }
+};
+
+template <std::convertible_to<double>... T>
+BalanceWithFactors(T...) -> BalanceWithFactors<sizeof...(T)>;
+
+// The factor of a technique by Grittmann et al. 2019, "Variance-Aware Multiple Importance Sampling": second moment over
+// variance, 1 + mean^2 / variance, of what a sample of it contributes under the balance heuristic, w f / p. Take the moments of
+// other samples than those to be weighed (earlier passes, neighbouring pixels), else the estimate is biased. At most 1e6, as
+// for a variance of 0; 1 where the variance is not known (NaN).
+[[nodiscard]] LUMIS_HD constexpr double variance_aware_factor(double mean, double variance) noexcept {
+    constexpr double largest = 1e6;
+    const double square = mean * mean;
+    if (!(variance >= 0) || !(square > 0)) return 1;
+    return square < largest * variance ? real::lesser(1 + square / variance, largest) : largest;
+}
+
 // The same weight to every technique that could have drawn the point: the naive average, which MIS replaces.
 struct EqualWeights {
     template <Real R, std::size_t N>

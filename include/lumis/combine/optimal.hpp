@@ -1,125 +1,28 @@
 // Optimal weights (Kondapaneni et al. 2019, "Optimal Multiple Importance Sampling"): the balance heuristic's estimate with the
 // techniques' densities as control variates,
 //
-//   sum_k alpha_k + sum over all samples of (f - sum_k alpha_k p_k) / S,   S = sum_k n_k p_k,
+//   sum_k alpha_k + sum over all samples of (f - sum_k alpha_k p_k) / S,   S = sum_k n_k p_k (one-sample: c_k p_k),
 //
-// where alpha comes from the samples and yet adds no bias, see CrossFitted. No other weights have less variance: those of
-// heuristics are positive, and these need not be.
+// with the alpha that leaves the least variance. Its weights need not be positive, as those of heuristics are. alpha comes from
+// the samples themselves, and still there is no bias, see CrossFitted.
 #pragma once
 
 #include "lumis/combine/cross_fitted.hpp"
-#include "lumis/combine/detail/shares.hpp"
+#include "lumis/combine/detail/rounds_in_lanes.hpp"
 #include "lumis/combine/multi_sample.hpp"
 #include "lumis/combine/one_sample.hpp"
 #include "lumis/combine/round.hpp"
 #include "lumis/core/platform.hpp"
 
-#include <array>
-#include <cstddef>
+#include <concepts>
 #include <type_traits>
 #include <utility>
 
 namespace lumis::LUMIS_ISA {
 
-namespace detail {
-
-// A round in each lane of R. A round of numbers is one of a single lane.
-template <class V, std::size_t K, Real R>
-struct RoundsIn {
-    static constexpr std::size_t lanes = 1;
-    using Value = V;
-    using type = Round<V, K>;
-};
-template <class V, std::size_t K, Real R>
-    requires(!std::floating_point<R>)
-struct RoundsIn<V, K, R> {
-    static constexpr std::size_t lanes = R::size;
-    using Value = decltype(lane_of(std::declval<const V&>(), 0));
-    using type = std::array<Round<Value, K>, lanes>;
-};
-
-// The number in one lane of x.
-template <class X>
-[[nodiscard]] LUMIS_INLINE inline auto number_in([[maybe_unused]] std::size_t lane, const X& x) noexcept {
-    if constexpr (std::is_arithmetic_v<X>) {
-        return x;
-    } else {
-        return x[lane];
-    }
-}
-
-// What the samples of combined strategies add to the rounds of all lanes.
-template <class V, std::size_t K, Real R>
-class RoundsOf {
-    using In = RoundsIn<V, K, R>;
-    static constexpr std::size_t lanes = In::lanes;
-    using Value = typename In::Value;
-
-  public:
-    // factors: n_k or c_k.
-    template <class Scalar>
-    LUMIS_INLINE explicit RoundsOf(const std::array<Scalar, K>& factors) noexcept {
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-            for (std::size_t k = 0; k < K; ++k) {
-                at(lane).equations.factors[k] = static_cast<double>(number_in(lane, factors[k]));
-            }
-        }
-    }
-
-    // A sample of technique i, in the lanes that selected it.
-    LUMIS_INLINE void add(std::size_t i, const Observation<V, R, K>& seen, const MaskOf<R>& selected) noexcept {
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-            if (!number_in(lane, selected)) continue;
-            const std::array<double, K>& factors = at(lane).equations.factors;
-            if (number_in(lane, seen.drawn)) {
-                std::array<double, K> densities;
-                for (std::size_t k = 0; k < K; ++k) {
-                    densities[k] = static_cast<double>(number_in(lane, seen.densities[k]));
-                }
-                const Shares<K> over_s = shares(densities, factors);
-                at(lane).add_sample(value_in(lane, seen.value) * over_s.inverse, over_s.q);
-            } else {
-                at(lane).add_alone(i, factors[i], {});  // nothing drawn: f is 0
-            }
-        }
-    }
-
-    // A sample of delta strategy i, given what it contributes: it has to itself all that it can draw.
-    LUMIS_INLINE void add_delta(std::size_t i, const V& contribution, const MaskOf<R>& selected) noexcept {
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-            if (!number_in(lane, selected)) continue;
-            at(lane).add_alone(i, at(lane).equations.factors[i], value_in(lane, contribution));
-        }
-    }
-
-    [[nodiscard]] LUMIS_INLINE const typename In::type& result() const noexcept { return rounds_; }
-
-  private:
-    [[nodiscard]] LUMIS_INLINE Round<Value, K>& at([[maybe_unused]] std::size_t lane) noexcept {
-        if constexpr (lanes == 1 && std::floating_point<R>) {
-            return rounds_;
-        } else {
-            return rounds_[lane];
-        }
-    }
-
-    [[nodiscard]] LUMIS_INLINE static InDouble<Value> value_in([[maybe_unused]] std::size_t lane,
-                                                               const V& value) noexcept {
-        if constexpr (std::floating_point<R>) {
-            return static_cast<InDouble<Value>>(value);
-        } else {
-            return static_cast<InDouble<Value>>(lane_of(value, lane));
-        }
-    }
-
-    typename In::type rounds_{};
-};
-
-}  // namespace detail
-
-// Draws rounds of samples: n_k of every technique. take(0, s) draws none, but s serves as a control variate: it has to
-// integrate to 1 over all that the others can draw, else the estimate is biased. Visible normals do not, where they reflect
-// samples below the horizon. CrossFitted::control_mean tells.
+// Draws rounds: n_k samples of every technique. take(0, s) draws none, but its density is a control variate. It has to
+// integrate to 1 over all that the techniques with samples can draw, or else the estimate is biased. That of visible normals
+// does not, for they reflect some samples below the horizon. CrossFitted::control_mean tells.
 template <class... S>
 class MultiSampleRounds : public MultiSample<BalanceHeuristic, S...> {
     using Base = MultiSample<BalanceHeuristic, S...>;
@@ -136,7 +39,7 @@ class MultiSampleRounds : public MultiSample<BalanceHeuristic, S...> {
         using R = RealFrom<U, Scalar>;
         using First = typename Base::template Nth<0>;
         using Value = decltype(this->template draw<0, R>(f, detail::next_for<First, R>(uniforms)));
-        detail::RoundsOf<Value, Base::size, R> rounds{this->factors()};
+        detail::RoundsInLanes<Value, Base::size, R> rounds{this->factors()};
         detail::for_each_index<Base::size>([&](auto i) {
             using Part = typename Base::template Nth<i>;
             for (int k = 0; k < this->count(i); ++k) {
@@ -168,7 +71,7 @@ class OneSampleRounds : public OneSample<BalanceHeuristic, S...> {
         using R = RealFrom<U, Scalar>;
         using First = typename Base::template Nth<0>;
         using Value = decltype(this->template draw<0, R>(f, detail::next_for<First, R>(uniforms)));
-        detail::RoundsOf<Value, Base::size, R> rounds{this->factors()};
+        detail::RoundsInLanes<Value, Base::size, R> rounds{this->factors()};
         const auto draw_one = [&](auto i, const auto& u, const MaskOf<R>& selected) {
             if constexpr (Base::template is_delta<i>) {
                 rounds.add_delta(i, Base::template as_value<Value>(this->template draw<i, R>(f, u, selected)),
@@ -214,15 +117,23 @@ class Optimal : public CrossFitted<Value, Rounds::size> {
     requires UniformSource<U, RealFrom<U, typename Rounds::Scalar>> LUMIS_HD void add(F&& f, U&& uniforms) {
         const auto drawn = rounds_.round(f, uniforms);
         if constexpr (requires { drawn.size(); }) {
-            for (const auto& round : drawn) add(round);
+            for (const auto& round : drawn) add_one(round);
         } else {
-            add(drawn);
+            add_one(drawn);
         }
     }
 
     [[nodiscard]] LUMIS_HD const Rounds& techniques() const noexcept LUMIS_LIFETIME_BOUND { return rounds_; }
 
   private:
+    template <class Wide>
+    LUMIS_INLINE void add_one(const Round<Wide, Rounds::size>& round) noexcept {
+        static_assert(
+            std::same_as<Wide, InDouble<Value>>,
+            "optimal<Value>(...) accumulates what the integrand returns: optimal<glm::vec3>(...) for a glm::vec3");
+        if constexpr (std::same_as<Wide, InDouble<Value>>) add(round);
+    }
+
     Rounds rounds_;
 };
 

@@ -52,27 +52,29 @@ struct NormalEquations {
 
     // alpha, given the number of rounds. A technique whose density is 0 at all samples has 0.
     //
-    // alpha in proportion to the factors leaves the balance heuristic's estimate as it is. The multiple that fits best is
-    // taken first, and the equations are solved for what it leaves, with a ridge of 1 / rounds on the matrix scaled to a
-    // diagonal of ones. So few rounds yield weights near balance, and a singular matrix (two techniques alike) does no harm.
+    // alpha in proportion to n leaves the balance heuristic's estimate as it is. The multiple that fits best is taken first,
+    // and the equations are solved for what it leaves, with a ridge on the matrix scaled to a diagonal of ones: 1 / the number
+    // of samples. So a few samples yield weights near balance, and a singular matrix (two techniques alike) does no harm.
     [[nodiscard]] LUMIS_HD constexpr std::array<Wide, K> solution(double rounds) const noexcept {
-        std::array<double, K> image{};  // A factors
-        double norm = 0;                // factors . A factors
+        if (!(rounds > 0)) return {};
+        std::array<double, K> n{}, image{};  // n_k or c_k, the mean over rounds; A n
+        double samples = 0;                  // n . A n, for n . q is 1
         Wide fit{};
+        for (std::size_t k = 0; k < K; ++k) n[k] = factors[k] / rounds;
         for (std::size_t i = 0; i < K; ++i) {
-            for (std::size_t k = 0; k < K; ++k) image[i] += a(i, k) * factors[k];
-            norm += factors[i] * image[i];
-            fit += b[i] * factors[i];
+            for (std::size_t k = 0; k < K; ++k) image[i] += a(i, k) * n[k];
+            samples += n[i] * image[i];
+            fit += b[i] * n[i];
         }
-        if (!(norm > 0)) return {};
-        fit *= 1 / norm;
+        if (!(samples > 0)) return {};
+        fit *= 1 / samples;
 
         // A + ridge = L D L^T.
         std::array<std::array<double, K>, K> l{}, l_d{};
         std::array<double, K> inverse_d{};
         std::array<Wide, K> x{};
         for (std::size_t i = 0; i < K; ++i) {
-            double d = a(i, i) * (1 + 1 / rounds);
+            double d = a(i, i) * (1 + 1 / samples);
             x[i] = b[i] - fit * image[i];
             for (std::size_t k = 0; k < i; ++k) {
                 l_d[i][k] = a(i, k);
@@ -88,13 +90,13 @@ struct NormalEquations {
             for (std::size_t k = i + 1; k < K; ++k) x[i] -= x[k] * l[k][i];
         }
         for (std::size_t i = 0; i < K; ++i) {
-            if (a(i, i) > 0) x[i] += fit * factors[i];
+            if (a(i, i) > 0) x[i] += fit * n[i];
         }
         return x;
     }
 
   private:
-    // A pivot below this share of its diagonal entry is rounding, after 1e14 rounds.
+    // A pivot below this share of its diagonal entry is rounding; the ridge alone is more, up to 1e14 samples.
     static constexpr double lost_digits = 1e-14;
 };
 
