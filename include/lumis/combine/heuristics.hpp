@@ -267,8 +267,8 @@ struct CutoffHeuristic {
 };
 
 // Balance of the densities times a factor for each technique, positive and known at run time: BalanceWithFactors{2.0, 1.0}.
-// Their own scale does not matter. variance_aware_factor gives more to a technique whose samples vary little; where that does
-// not make up for what they leave to the others, the variance is above balance's.
+// The factors' own scale does not matter. variance_aware_factor gives more to a technique whose samples vary little; where
+// that does not make up for what they leave to the others, the variance is above balance's.
 template <std::size_t N>
 struct BalanceWithFactors {
     static constexpr bool is_positive = true;  // see BalanceHeuristic
@@ -305,7 +305,8 @@ struct BalanceWithFactors {
     // The densities are scaled before the factors can make them overflow or vanish.
     template <std::floating_point T, class Densities>
     [[nodiscard]] LUMIS_COLD T at_scale(std::size_t own, Densities densities) const noexcept {
-        const T scale = detail::scale_to_one(real::largest_of(densities));
+        const T largest = real::largest_of(densities);
+        const T scale = largest > 0 && std::isfinite(largest) ? detail::scale_to_one(largest) : T(1);
         std::array<T, N> products;
         for (std::size_t k = 0; k < N; ++k) products[k] = static_cast<T>(factors[k]) * (scale * densities[k]);
         return detail::weight_at_scale<T>(own, products, [](T p, T again) { return p * again; });
