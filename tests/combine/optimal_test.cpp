@@ -37,13 +37,13 @@ void check(Best best, const F& f, const std::array<double, K>& alpha, double var
     CHECK(std::abs(best.estimate() - integral) <= 1e-4 * std::abs(integral));
 }
 
-// By the midpoint rule, in the one-sample model with S = sum c_k p_k: the solution of A alpha = b for two techniques.
-struct OneSampleAnswer {
+// The solution of A alpha = b for two techniques, by the midpoint rule, for S = c0 p + c1 q: counts or probabilities.
+struct TwoTechniques {
     std::array<double, 2> alpha;
     double variance;
 };
 template <class F, class First, class Second>
-OneSampleAnswer one_sample_answer(const F& f, double c0, const First& first, double c1, const Second& second) {
+TwoTechniques solution(const F& f, double c0, const First& first, double c1, const Second& second) {
     constexpr int steps = 100'000;
     double a00 = 0, a01 = 0, a11 = 0, b0 = 0, b1 = 0, squares = 0;
     for (int i = 0; i < steps; ++i) {
@@ -99,10 +99,15 @@ TEST_CASE("a draw that yields nothing is a point of its technique alone", "[opti
     CHECK(std::abs(best.control_mean(1) - 1) <= 1e-4);
 }
 
-TEST_CASE("one-sample weights solve their own equations, whatever the probabilities sum to", "[optimal]") {
+TEST_CASE("weights solve the equations of their counts and probabilities", "[optimal]") {
     const Monomial one{1}, rising{2};
+    for (const auto& [n0, n1] : {std::array{2, 1}, {1, 4}, {3, 3}}) {
+        const auto answer = solution(exponential, n0, one, n1, rising);
+        check(optimal(take(n0, one), take(n1, rising)), exponential, answer.alpha, answer.variance, e - 1);
+    }
+    // Probabilities may sum to less than 1.
     for (const auto& [c0, c1] : {std::array{0.5, 0.5}, {0.3, 0.6}, {0.1, 0.2}}) {
-        const auto answer = one_sample_answer(exponential, c0, one, c1, rising);
+        const auto answer = solution(exponential, c0, one, c1, rising);
         check(optimal(choose(c0, one), choose(c1, rising)), exponential, answer.alpha, answer.variance, e - 1);
     }
 }
