@@ -1,0 +1,186 @@
+// Pilot samples tell how many samples to take of which technique: counts for multi_sample, probabilities for one_sample.
+//
+// A few rounds are enough. Each sample tells of all splits of samples at once, by importance weights, so that nothing has to
+// be drawn with each. Moments are kept as sums: nothing is allocated, and plans of several threads merge.
+#pragma once
+
+#include "lumis/combine/combination.hpp"
+#include "lumis/combine/detail/pilot_moments.hpp"
+#include "lumis/combine/forecast.hpp"
+#include "lumis/core/detail/for_each_index.hpp"
+#include "lumis/core/detail/in_lanes.hpp"
+#include "lumis/core/platform.hpp"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+namespace lumis::LUMIS_ISA {
+
+// What the noise of an estimate is judged by: a number itself, and the luminance of a colour (Rec. 709).
+struct Luminance {
+    template <class Number>
+        requires std::is_arithmetic_v<Number>
+    [[nodiscard]] LUMIS_HD constexpr double operator()(Number x) const noexcept { return static_cast<double>(x); }
+
+    template <class Number, glm::qualifier Q>
+    [[nodiscard]] LUMIS_HD constexpr double operator()(const glm::vec<3, Number, Q>& rgb) const noexcept {
+        return 0.2126 * static_cast<double>(rgb.x) + 0.7152 * static_cast<double>(rgb.y) +
+               0.0722 * static_cast<double>(rgb.z);
+    }
+};
+
+namespace detail {
+
+template <class... S>
+using ForecastOf = Forecast<DeltaStrategy<std::remove_cvref_t<S>>...>;
+
+}  // namespace detail
+
+// Made by allocate(). H is the heuristic of the estimators to come.
+template <class H, class... S>
+class Allocation : private Combination<BalanceHeuristic, S...> {
+    using Base = Combination<BalanceHeuristic, S...>;
+    static constexpr std::size_t size = sizeof...(S), smooth = detail::number_of_smooth<S...>;
+
+  public:
+    using typename Base::Scalar;
+    using Costs = SamplingCosts<size>;
+    using Limits = AllocationLimits<size>;
+
+    static_assert(std::floating_point<Scalar>,
+                  "pilot samples are drawn by strategies of numbers, from numbers or from lanes");
+
+    LUMIS_HD explicit constexpr Allocation(const H& heuristic, Take<S>&&... techniques)
+        : Base{BalanceHeuristic{}, {static_cast<Scalar>(techniques.count)...}, std::move(techniques)...},
+          heuristic_{heuristic},
+          counts_{techniques.count...} {}
+
+    // A pilot round: draws as many samples of each technique as was given to allocate, and returns the estimate that they make,
+    // by the balance heuristic. f is called as by MultiSample::estimate. norm(f(x)) is the number whose variance counts; it may
+    // be negative, and scales with f(x).
+    //
+    // A source that yields lanes makes a round in each of them.
+    template <class F, class U, class Norm = Luminance>
+    requires UniformSource<U, RealFrom<U, Scalar>> LUMIS_HD auto add(F&& f, U&& uniforms, Norm norm = {}) {
+        using R = RealFrom<U, Scalar>;
+        using First = typename Base::template Nth<0>;
+        using Value = decltype(this->template draw<0, R>(f, detail::next_for<First, R>(uniforms)));
+        Value sum = zero<Value>::value();
+        detail::for_each_index<size>([&](auto i) {
+            using Part = typename Base::template Nth<i>;
+            for (int k = 0; k < counts_[i]; ++k) {
+                const auto sample =
+                    detail::sample_in<R>(this->template strategy<i>(), detail::next_for<Part, R>(uniforms));
+                const Value value =
+                    Base::template as_value<Value>(this->template contribution<i, R>(f, sample, MaskOf<R>(true)));
+                sum = Value(sum + value);
+                if constexpr (std::floating_point<R>) {
+                    record<i>(norm(value), sample);
+                } else {
+                    for (std::size_t lane = 0; lane < R::size; ++lane) {
+                        record<i>(norm(detail::lane_of(value, lane)), detail::lane_of_sample(sample, lane));
+                    }
+                }
+            }
+        });
+        if constexpr (std::floating_point<R>) {
+            rounds_ += 1;
+        } else {
+            rounds_ += static_cast<double>(R::size);
+        }
+        return sum;
+    }
+
+    // As if the rounds of `other` had been added here: another thread's, for the same integral.
+    LUMIS_HD void merge(const Allocation& other) noexcept {
+        moments_.merge(other.moments_);
+        for (std::size_t d = 0; d < delta_sums_.size(); ++d) {
+            delta_sums_[d].first += other.delta_sums_[d].first;
+            delta_sums_[d].second += other.delta_sums_[d].second;
+        }
+        rounds_ += other.rounds_;
+    }
+
+    // The variance of each split of samples. Those for several integrals add up.
+    [[nodiscard]] LUMIS_HD detail::ForecastOf<S...> forecast() const noexcept {
+        return {moments_, delta_sums_, rounds_};
+    }
+
+    // What the forecast for this integral advises: see there.
+    [[nodiscard]] LUMIS_HD auto counts(const Costs& costs = {}, const Limits& limits = {}) const noexcept {
+        return forecast().counts(costs, limits);
+    }
+    [[nodiscard]] LUMIS_HD auto probabilities(const Costs& costs = {}, const Limits& limits = {}) const noexcept {
+        return forecast().probabilities(costs, limits);
+    }
+
+  private:
+    // The place of technique I among those of its kind.
+    template <std::size_t I>
+    [[nodiscard]] LUMIS_HD static constexpr std::size_t place() noexcept {
+        std::size_t result = 0;
+        detail::for_each_index<I>([&](auto k) { result += Base::template is_delta<k> == Base::template is_delta<I>; });
+        return result;
+    }
+
+    // A sample and what it contributes to the round's estimate: f over the sum of all densities, by the balance heuristic.
+    template <std::size_t I, class Drawn>
+    LUMIS_HD void record(double contribution, const Drawn& sample) noexcept {
+        const auto count = static_cast<double>(counts_[I]);
+        if constexpr (Base::template is_delta<I>) {
+            auto& sums = delta_sums_[place<I>()];
+            sums.first += contribution;
+            sums.second += contribution * contribution * count;
+        } else if (!(sample.pdf > 0)) {
+            moments_.add_nothing(place<I>(), count);
+        } else {
+            std::array<double, smooth> densities{};
+            double sum = 0;
+            detail::for_each_index<size>([&](auto k) {
+                if constexpr (!Base::template is_delta<k>) {
+                    double& own = densities[place<k>()];
+                    if constexpr (k == I) {
+                        own = static_cast<double>(sample.pdf);
+                    } else {
+                        own = static_cast<double>(detail::pdf_in<Scalar>(this->template strategy<k>(), sample.value));
+                    }
+                    sum += counts_[k] * own;
+                }
+            });
+            moments_.template add<Scalar>(heuristic_, contribution * sum, densities, sum);
+        }
+    }
+
+    [[no_unique_address]] H heuristic_;
+    std::array<int, size> counts_;
+    detail::PilotMoments<smooth> moments_;
+    std::array<detail::FirstAndSecond, size - smooth> delta_sums_{};
+    double rounds_ = 0;
+};
+
+// A plan for estimators by a heuristic that is told densities: allocate(PowerHeuristic{}, take(1, bsdf), take(1, light)). A
+// pilot round draws these counts, 1 or more.
+//
+//   for (int i = 0; i < 16; ++i) plan.add(f, uniforms);
+//   const auto n = plan.counts({.of_sample = {1, 4}});
+//   const auto direct = multi_sample(PowerHeuristic{}, take(n[0], bsdf), take(n[1], light));
+//
+// The estimate stays unbiased as the counts depend on no sample that enters it. The pilot's own estimates may be averaged in by
+// weights that were fixed before: the pilot's share of the time, or of the rounds if their number does not depend on the plan.
+// Weights by variances, or by a number of rounds that the plan decides, see the samples and bias the mean.
+template <class H, class First, class... Rest>
+    requires HeuristicFor<H, First, Rest...> && Composable<First, Rest...>
+[[nodiscard]] LUMIS_HD constexpr auto allocate(const H& heuristic, Take<First> first LUMIS_LIFETIME_BOUND,
+                                               Take<Rest>... rest LUMIS_LIFETIME_BOUND) {
+    return Allocation<H, First, Rest...>{heuristic, std::move(first), std::move(rest)...};
+}
+
+template <class... S>
+void allocate(Take<S>... the_first_argument_must_be_a_heuristic) = delete;
+
+}  // namespace lumis::LUMIS_ISA

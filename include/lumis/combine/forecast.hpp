@@ -1,0 +1,314 @@
+// How to divide samples among techniques: the counts, or probabilities, of the least variance times cost (Grittmann et al.
+// 2022, "Efficiency-Aware Multiple Importance Sampling for Bidirectional Rendering Algorithms"). Allocations make forecasts
+// from pilot samples, see allocate.hpp.
+#pragma once
+
+#include "lumis/combine/detail/pilot_moments.hpp"
+#include "lumis/combine/detail/splits.hpp"
+#include "lumis/core/assert.hpp"
+#include "lumis/core/platform.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace lumis::LUMIS_ISA {
+
+namespace detail {
+
+template <std::size_t N>
+[[nodiscard]] LUMIS_HD constexpr std::array<double, N> ones() noexcept {
+    std::array<double, N> result{};
+    for (double& x : result) x = 1;
+    return result;
+}
+
+}  // namespace detail
+
+// What an estimate by N techniques costs, in any unit of time.
+template <std::size_t N>
+struct SamplingCosts {
+    // One sample of each technique: drawing it, and evaluating the integrand there. Positive.
+    std::array<double, N> of_sample = detail::ones<N>();
+
+    // The density of each technique at a sample that another one has drawn. It is paid at every sample that has a density,
+    // where the technique takes part.
+    std::array<double, N> of_density{};
+
+    // What an estimate costs besides, whatever it draws: a camera ray, a lookup of textures.
+    double of_estimate = 0;
+};
+
+// What an allocation may do.
+template <std::size_t N>
+struct AllocationLimits {
+    // Techniques that are known to draw all points where the integrand is not 0. Where one of them takes part, others may be
+    // left out. Else every technique takes part: what no pilot sample has met must still be drawn. Delta strategies always do.
+    std::array<bool, N> covers{};
+
+    int most_samples = 16;  // of all techniques together, in a multi-sample estimate
+};
+
+// The variances of estimators that divide their samples among techniques in different ways, as predicted for one integral or
+// for several; is_delta tells which of the techniques are delta strategies. With neither pilot samples nor limits all
+// techniques are treated alike.
+template <bool... is_delta>
+class Forecast {
+  public:
+    static constexpr std::size_t size = sizeof...(is_delta);
+    using Costs = SamplingCosts<size>;
+    using Limits = AllocationLimits<size>;
+    using Counts = std::array<int, size>;
+    using Probabilities = std::array<double, size>;
+
+  private:
+    static constexpr std::size_t deltas = (std::size_t{is_delta} + ... + 0), smooth = size - deltas;
+    static_assert(smooth <= detail::most_to_split,
+                  "samples are divided among at most five techniques with a density; a Mixture or a LightSet is one");
+    static constexpr std::size_t splits = detail::Splits<smooth>::size;
+
+  public:
+    LUMIS_HD Forecast() = default;
+
+    // From so many pilot rounds.
+    LUMIS_HD Forecast(const detail::PilotMoments<smooth>& moments,
+                      const std::array<detail::FirstAndSecond, deltas>& delta_sums, double rounds) noexcept {
+        if (!(rounds > 0)) return;
+        double delta_mean = 0;
+        for (std::size_t d = 0; d < deltas; ++d) {
+            const double mean = delta_sums[d].first / rounds;
+            delta_seconds_[d] = delta_sums[d].second / rounds;
+            delta_variances_[d] = delta_seconds_[d] - mean * mean;
+            delta_mean += mean;
+        }
+        std::size_t k = 0;
+        detail::for_each_split<smooth>([&](const auto& split) {
+            double mean = delta_mean;
+            for (std::size_t t = 0; t < smooth; ++t) {
+                if (split[t] == 0) continue;
+                const auto [first, second] = moments.expected(t, k);
+                mean += first;
+                seconds_[k] += second / split[t];
+                variances_[k] += (second - first * first) / split[t];
+            }
+            squared_means_[k] = mean * mean;
+            ++k;
+        });
+    }
+
+    // Adds the variances for other integrals: of pixels, or of points that a material covers. Their sum tells which counts are
+    // best for all of them.
+    LUMIS_HD Forecast& operator+=(const Forecast& other) noexcept {
+        const auto add = [](auto& mine, const auto& theirs) {
+            for (std::size_t i = 0; i < mine.size(); ++i) mine[i] += theirs[i];
+        };
+        add(variances_, other.variances_);
+        add(seconds_, other.seconds_);
+        add(squared_means_, other.squared_means_);
+        add(delta_variances_, other.delta_variances_);
+        add(delta_seconds_, other.delta_seconds_);
+        return *this;
+    }
+
+    // The counts for multi_sample that have the least variance times cost. The fewest where several do: twice the samples are
+    // worth twice the estimates, unless an estimate has a cost of its own. One sample of each technique where the limits leave
+    // no choice.
+    [[nodiscard]] LUMIS_HD Counts counts(const Costs& costs = {}, const Limits& limits = {}) const noexcept {
+        Best best = all_alike();
+        for_each_allowed(limits, [&](std::size_t k, const auto& split) {
+            const int drawn = smooth > 0 ? sum_of(split) : 1;
+            for (int scale = 1; scale == 1 || (smooth > 0 && scale * drawn <= limits.most_samples); ++scale) {
+                const auto score = [&](const Amounts& n) {
+                    return multi_sample_variance(k, scale, n) * cost(n, costs);
+                };
+                Best local{arranged(split, scale)};
+                int left = limits.most_samples - static_cast<int>(sum_of(local.amounts));
+                if (left < 0) break;
+                local.score = score(local.amounts);
+                // Delta strategies do not know of each other: one more sample goes to where it helps most.
+                for (bool improves = true; improves && left > 0; --left) {
+                    const Amounts before = local.amounts;
+                    improves = false;
+                    for_each_delta([&](std::size_t i) {
+                        Amounts more = before;
+                        more[i] += 1;
+                        improves |= local.offer(score(more), more);
+                    });
+                }
+                best.offer(local.score, local.amounts);
+            }
+        });
+        Counts counts{};
+        for (std::size_t i = 0; i < size; ++i) counts[i] = static_cast<int>(best.amounts[i]);
+        return counts;
+    }
+
+    // The probabilities for one_sample that have the least variance times cost. They sum to 1.
+    [[nodiscard]] LUMIS_HD Probabilities probabilities(const Costs& costs = {},
+                                                       const Limits& limits = {}) const noexcept {
+        Best best = all_alike();
+        for_each_allowed(limits, [&](std::size_t k, const auto& split) {
+            const double scale = smooth > 0 ? 1.0 / sum_of(split) : 1.0;
+            const auto score = [&](const Amounts& odds) {
+                return one_sample_variance(k, scale, odds) * cost(normalised(odds), costs);
+            };
+            Best local{arranged(split, scale)};
+            local.score = score(local.amounts);
+            // Each delta strategy in turn: the score has one minimum along each.
+            for (int turn = 0; turn < 4 && deltas > 0; ++turn) {
+                for_each_delta([&](std::size_t i) {
+                    Amounts odds = local.amounts;
+                    for (int step = -24; step <= 24; ++step) {
+                        odds[i] = std::exp2(step / 4.0);
+                        local.offer(score(odds), odds);
+                    }
+                });
+            }
+            best.offer(local.score, local.amounts);
+        });
+        return normalised(best.amounts);
+    }
+
+    // The variance of a multi-sample estimate with such counts; NaN if none of the compared splits is in proportion to them.
+    [[nodiscard]] LUMIS_HD double multi_sample_variance(const Counts& counts) const noexcept {
+        return at(counts,
+                  [&](std::size_t k, double scale, const Amounts& n) { return multi_sample_variance(k, scale, n); });
+    }
+
+    // The same of a one-sample estimate with probabilities in proportion to such counts.
+    [[nodiscard]] LUMIS_HD double one_sample_variance(const Counts& counts) const noexcept {
+        return at(counts,
+                  [&](std::size_t k, double scale, const Amounts& n) { return one_sample_variance(k, scale, n); });
+    }
+
+  private:
+    using Amounts = std::array<double, size>;  // samples of each technique, or odds
+
+    struct Best {
+        Amounts amounts{};
+        double score = std::numeric_limits<double>::infinity();
+
+        // By more than rounding: else the first stays, which is the smaller.
+        LUMIS_HD constexpr bool offer(double new_score, const Amounts& new_amounts) noexcept {
+            if (!(new_score < score * (1 - 1e-9))) return false;
+            score = new_score;
+            amounts = new_amounts;
+            return true;
+        }
+    };
+
+    [[nodiscard]] LUMIS_HD static constexpr Best all_alike() noexcept { return {detail::ones<size>()}; }
+
+    // Whether technique i is a delta strategy, and its place among those of its kind.
+    [[nodiscard]] LUMIS_HD static constexpr bool kind(std::size_t i) noexcept {
+        constexpr bool kinds[]{is_delta...};
+        return kinds[i];
+    }
+    [[nodiscard]] LUMIS_HD static constexpr std::size_t place(std::size_t i) noexcept {
+        std::size_t result = 0;
+        for (std::size_t k = 0; k < i; ++k) result += kind(k) == kind(i);
+        return result;
+    }
+
+    template <class Visit>
+    LUMIS_HD static void for_each_delta(Visit visit) noexcept {
+        for (std::size_t i = 0; i < size; ++i) {
+            if (kind(i)) visit(i);
+        }
+    }
+
+    template <class Number, std::size_t N>
+    [[nodiscard]] LUMIS_HD static constexpr Number sum_of(const std::array<Number, N>& numbers) noexcept {
+        Number sum{};
+        for (const Number number : numbers) sum += number;
+        return sum;
+    }
+    [[nodiscard]] LUMIS_HD static constexpr Amounts normalised(Amounts amounts) noexcept {
+        const double sum = sum_of(amounts);
+        for (double& amount : amounts) amount /= sum;
+        return amounts;
+    }
+
+    // A multiple of a split, and one sample of each delta strategy.
+    [[nodiscard]] LUMIS_HD static constexpr Amounts arranged(const std::array<int, smooth>& split,
+                                                             double scale) noexcept {
+        Amounts amounts = detail::ones<size>();
+        for (std::size_t i = 0; i < size; ++i) {
+            if (!kind(i)) amounts[i] = scale * split[place(i)];
+        }
+        return amounts;
+    }
+
+    // Calls visit(k, split) for those that the limits allow.
+    template <class Visit>
+    LUMIS_HD static void for_each_allowed(const Limits& limits, Visit visit) noexcept {
+        std::size_t k = 0;
+        detail::for_each_split<smooth>([&](const auto& split) {
+            bool complete = true, covered = false;
+            for (std::size_t i = 0; i < size; ++i) {
+                if (kind(i)) continue;
+                const bool drawn = split[place(i)] > 0;
+                complete = complete && drawn;
+                covered = covered || (drawn && limits.covers[i]);
+            }
+            if (complete || covered) visit(k, split);
+            ++k;
+        });
+    }
+
+    [[nodiscard]] LUMIS_HD static double cost(const Amounts& n, const Costs& costs) noexcept {
+        double densities = 0;  // of all techniques that take part
+        for (std::size_t i = 0; i < size; ++i) {
+            LUMIS_ASSERT(costs.of_sample[i] > 0 && costs.of_density[i] >= 0);
+            if (!kind(i) && n[i] > 0) densities += costs.of_density[i];
+        }
+        double sum = costs.of_estimate;
+        for (std::size_t i = 0; i < size; ++i) {
+            sum += n[i] * (kind(i) ? costs.of_sample[i] : costs.of_sample[i] + densities - costs.of_density[i]);
+        }
+        return sum;
+    }
+
+    // Split k times a scale, and any samples of delta strategies: as n has them.
+    [[nodiscard]] LUMIS_HD double multi_sample_variance(std::size_t k, double scale, const Amounts& n) const noexcept {
+        double sum = variances_[k] / scale;
+        for_each_delta([&](std::size_t i) { sum += delta_variances_[place(i)] / n[i]; });
+        return sum;
+    }
+    [[nodiscard]] LUMIS_HD double one_sample_variance(std::size_t k, double scale, const Amounts& odds) const noexcept {
+        double sum = seconds_[k] / scale;
+        for_each_delta([&](std::size_t i) { sum += delta_seconds_[place(i)] / odds[i]; });
+        return sum * sum_of(odds) - squared_means_[k];
+    }
+
+    // What function(k, scale, n) returns for the split that counts are a multiple of.
+    template <class Function>
+    [[nodiscard]] LUMIS_HD double at(const Counts& counts, Function function) const noexcept {
+        double result = std::numeric_limits<double>::quiet_NaN();
+        Amounts n{};
+        for (std::size_t i = 0; i < size; ++i) n[i] = counts[i];
+        std::size_t k = 0;
+        detail::for_each_split<smooth>([&](const auto& split) {
+            const double scale = smooth > 0 ? (sum_of(n) - deltas_of(n)) / sum_of(split) : 1;
+            Amounts multiple = arranged(split, scale);
+            for_each_delta([&](std::size_t i) { multiple[i] = n[i]; });
+            if (multiple == n) result = function(k, scale, n);
+            ++k;
+        });
+        return result;
+    }
+    [[nodiscard]] LUMIS_HD static double deltas_of(const Amounts& n) noexcept {
+        double sum = 0;
+        for_each_delta([&](std::size_t i) { sum += n[i]; });
+        return sum;
+    }
+
+    // For each split: the sum over techniques of the variance, and of the second moment, of one contribution over the count;
+    // and the square of the integral. The integral is estimated with each split anew: so its error cancels that of the second
+    // moment, where both are nearly equal.
+    std::array<double, splits> variances_{}, seconds_{}, squared_means_{};
+    std::array<double, deltas> delta_variances_{}, delta_seconds_{};  // of one sample
+};
+
+}  // namespace lumis::LUMIS_ISA
