@@ -55,6 +55,9 @@ class Allocation : private Combination<BalanceHeuristic, S...> {
     static_assert(std::floating_point<Scalar>,
                   "pilot samples are drawn by strategies of numbers, from numbers or from lanes");
 
+    static_assert(smooth <= 1 || DensityHeuristic<H, Scalar, smooth>,
+                  "an allocation weighs by densities; how a partition by points divides samples it does not tell");
+
     LUMIS_HD explicit constexpr Allocation(const H& heuristic, Take<S>&&... techniques)
         : Base{BalanceHeuristic{}, {static_cast<Scalar>(techniques.count)...}, std::move(techniques)...},
           heuristic_{heuristic},
@@ -104,6 +107,12 @@ class Allocation : private Combination<BalanceHeuristic, S...> {
             delta_sums_[d].second += other.delta_sums_[d].second;
         }
         rounds_ += other.rounds_;
+    }
+
+    // See Forecast.
+    [[nodiscard]] LUMIS_HD static Costs costs_from_times(const std::array<double, size>& alone, double together,
+                                                         const std::array<double, size>& one_more) noexcept {
+        return detail::ForecastOf<S...>::costs_from_times(alone, together, one_more);
     }
 
     // The variance of each split of samples. Those for several integrals add up.

@@ -44,7 +44,8 @@ struct SamplingCosts {
 template <std::size_t N>
 struct AllocationLimits {
     // Techniques that are known to draw all points where the integrand is not 0. Where one of them takes part, others may be
-    // left out. Else every technique takes part: what no pilot sample has met must still be drawn. Delta strategies always do.
+    // left out, by 128 pilot rounds or more. Else every technique takes part: what no pilot sample has met must still be drawn.
+    // Delta strategies always take part.
     std::array<bool, N> covers{};
 
     int most_samples = 16;  // of all techniques together, in a multi-sample estimate
@@ -74,6 +75,7 @@ class Forecast {
     // From so many pilot rounds.
     LUMIS_HD Forecast(const detail::PilotMoments<smooth>& moments,
                       const std::array<detail::FirstAndSecond, deltas>& delta_sums, double rounds) noexcept {
+        rounds_ = rounds;
         if (!(rounds > 0)) return;
         double delta_mean = 0;
         for (std::size_t d = 0; d < deltas; ++d) {
@@ -97,12 +99,34 @@ class Forecast {
         });
     }
 
+    // Costs from measured times of multi-sample estimates: by one sample of technique i alone, by one sample of each technique,
+    // and by one more of technique i. What times do not tell is a cost of the estimate itself: that is in `alone`, and so in
+    // of_sample.
+    [[nodiscard]] LUMIS_HD static Costs costs_from_times(const std::array<double, size>& alone, double together,
+                                                         const std::array<double, size>& one_more) noexcept {
+        Costs costs{.of_sample = alone};
+        // A sample more costs the densities of the others besides: summed over techniques, all densities smooth - 1 times.
+        std::array<double, size> others{};
+        double sum = 0;
+        for (std::size_t i = 0; i < size; ++i) {
+            if (kind(i)) continue;
+            others[i] = one_more[i] - together - alone[i];
+            sum += others[i];
+        }
+        for (std::size_t i = 0; i < size; ++i) {
+            const double density = smooth > 1 && !kind(i) ? sum / static_cast<double>(smooth - 1) - others[i] : 0;
+            costs.of_density[i] = density > 0 ? density : 0;
+        }
+        return costs;
+    }
+
     // Adds the variances for other integrals: of pixels, or of points that a material covers. Their sum tells which counts are
     // best for all of them.
     LUMIS_HD Forecast& operator+=(const Forecast& other) noexcept {
         const auto add = [](auto& mine, const auto& theirs) {
             for (std::size_t i = 0; i < mine.size(); ++i) mine[i] += theirs[i];
         };
+        rounds_ += other.rounds_;
         add(variances_, other.variances_);
         add(seconds_, other.seconds_);
         add(squared_means_, other.squared_means_);
@@ -240,19 +264,25 @@ class Forecast {
         return amounts;
     }
 
-    // Calls visit(k, split) for those that the limits allow.
+    // A floor under each technique's share, for what the pilot may have missed: one sample in as many as there were pilot
+    // rounds. Without it, four rounds that miss the broad one of two bumps leave it to a Gaussian in the other, at 1e8 times
+    // the variance.
+    static constexpr double rounds_to_leave_out = 128;
+
+    // Calls visit(k, split) for those that the limits and the number of pilot rounds allow.
     template <class Visit>
-    LUMIS_HD static void for_each_allowed(const Limits& limits, Visit visit) noexcept {
+    LUMIS_HD void for_each_allowed(const Limits& limits, Visit visit) const noexcept {
         std::size_t k = 0;
         detail::for_each_split<smooth>([&](const auto& split) {
-            bool complete = true, covered = false;
+            bool complete = true, covered = false, founded = true;
             for (std::size_t i = 0; i < size; ++i) {
                 if (kind(i)) continue;
-                const bool drawn = split[place(i)] > 0;
-                complete = complete && drawn;
-                covered = covered || (drawn && limits.covers[i]);
+                const int count = split[place(i)];
+                complete = complete && count > 0;
+                covered = covered || (count > 0 && limits.covers[i]);
+                founded = founded && (count > 0 ? count * rounds_ >= sum_of(split) : rounds_ >= rounds_to_leave_out);
             }
-            if (complete || covered) visit(k, split);
+            if ((complete || covered) && (founded || k == 0)) visit(k, split);
             ++k;
         });
     }
@@ -307,6 +337,7 @@ class Forecast {
     // For each split: the sum over techniques of the variance, and of the second moment, of one contribution over the count;
     // and the square of the integral. The integral is estimated with each split anew: so its error cancels that of the second
     // moment, where both are nearly equal.
+    double rounds_ = 0;
     std::array<double, splits> variances_{}, seconds_{}, squared_means_{};
     std::array<double, deltas> delta_variances_{}, delta_seconds_{};  // of one sample
 };

@@ -42,12 +42,12 @@ struct PilotMoments {
                 effective[t] = all.counts[t][k] * densities[t];
                 sum += effective[t];
             }
-            // A split that does not draw this point is no estimator of this integral.
-            if (!(sum > 0)) seconds[0][k] = std::numeric_limits<double>::infinity();
             const double inverse = 1 / (sum > 0 ? sum : 1);
+            // A split that does not draw this point is no estimator of this integral.
+            const double if_never_drawn = sum > 0 ? 0 : std::numeric_limits<double>::infinity();
             for (std::size_t t = 0; t < S; ++t) {
                 double first, second;  // of this sample, times p
-                if constexpr (std::same_as<H, BalanceHeuristic>) {
+                if constexpr (S == 1 || std::same_as<H, BalanceHeuristic>) {
                     const double h = all.counts[t][k] * f * inverse;
                     first = h * densities[t];
                     second = h * first;
@@ -56,7 +56,7 @@ struct PilotMoments {
                     second = effective[t] > 0 ? first * first / densities[t] : 0;
                 }
                 firsts[t][k] += first / p;
-                seconds[t][k] += second / p;
+                seconds[t][k] += second / p + if_never_drawn;
             }
         }
     }
