@@ -3,6 +3,7 @@
 #include "instrumented.hpp"
 #include "strategies.hpp"
 #include <lumis/batch/batch.hpp>
+#include <lumis/combine/allocate.hpp>
 #include <lumis/lumis.hpp>
 #include <lumis/testing/batch.hpp>
 #include <lumis/testing/every_heuristic.hpp>
@@ -308,4 +309,21 @@ TEMPLATE_TEST_CASE("moments of lanes are those of each", "[lanes]", float, doubl
     CHECK(of_lanes.variance() == of_each.variance());
     CHECK(of_lanes.count() == 5 * L::size - 1);
     CHECK(of_lanes.rejected() == 1);
+}
+
+TEST_CASE("pilot rounds in lanes are those of numbers", "[lanes]") {
+    using L = lumis::Lanes<double, 4>;
+    const Scene<double> scene;
+    auto in_lanes = lumis::allocate(lumis::PowerHeuristic{}, take(1, scene.ggx), take(2, scene.cosine));
+    auto in_numbers = in_lanes;
+    for (int k = 0; k < 6; ++k) {
+        const L u = (counting<L>(1) + 4.0 * k) / 25.0;
+        const L estimates = in_lanes.add(Smooth{}, Same<L>{u});
+        for (std::size_t i = 0; i < L::size; ++i) {
+            const double estimate = in_numbers.add(Smooth{}, Same<double>{u[i]});
+            CHECK(std::abs(estimates[i] / estimate - 1) <= 1e-12);
+        }
+    }
+    const double variance = in_numbers.forecast().multi_sample_variance({2, 1});
+    CHECK(std::abs(in_lanes.forecast().multi_sample_variance({2, 1}) / variance - 1) <= 1e-9);
 }
