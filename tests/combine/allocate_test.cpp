@@ -178,8 +178,9 @@ TEST_CASE("a technique is left out if another covers all, and if the pilot was l
 
 TEST_CASE("a delta strategy gets what its own variance is worth", "[allocate]") {
     const auto f = [](double x, auto... delta) { return sizeof...(delta) > 0 ? 2 + 30 * x : x; };
-    const auto plan =
-        piloted(allocate(PowerHeuristic{}, take(1, TwoPoints{}), take(1, Interval<double>{0, 1})), f, 20'000);
+    const auto pilot = allocate(PowerHeuristic{}, take(2, TwoPoints{}), take(1, Interval<double>{0, 1}));
+    auto plan = piloted(pilot, f, 10'000, 1);
+    plan.merge(piloted(pilot, f, 10'000, 2));
     const auto forecast = plan.forecast();
     // 2 / (1/4) or 32 / (3/4), and any of [0, 1).
     const double point = std::pow(128.0 / 3 - 8, 2) * 3 / 16, line = 1.0 / 12;
