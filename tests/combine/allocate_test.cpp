@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <random>
 
 using lumis::allocate;
@@ -138,6 +139,33 @@ TEST_CASE("e^x by the densities 1 and 2 x, the second of four times the cost", "
         const Counts n = few.counts({.of_sample = {1, 4}});
         CHECK(variance_of_exponential(n[0], n[1]) * (n[0] + 4 * n[1]) <= even);
     }
+}
+
+TEST_CASE("optimal weights draw the cheap technique and keep the other as a control variate", "[allocate]") {
+    const auto pilot = allocate(lumis::OptimalWeights{}, take(1, Interval<double>{0, 1}), take(1, Steep{}));
+    auto plan = piloted(pilot, exponential, 10'000, 1);
+    plan.merge(piloted(pilot, exponential, 10'000, 2));
+    const auto forecast = plan.forecast();
+    // What is left of e^x by regression on 2 x, over [0, 1].
+    const double e = std::numbers::e, regression = (e * e - 1) / 2 - (e - 1) * (e - 1) - 3 * (3 - e) * (3 - e);
+    constexpr double even = 0.0020220066861;
+    CHECK(std::abs(even * 5 / regression - 2.56) <= 0.01);
+    CHECK(std::abs(forecast.multi_sample_variance({1, 1}) / even - 1) <= 0.03);
+    CHECK(std::abs(forecast.multi_sample_variance({3, 0}) / (regression / 3) - 1) <= 0.03);
+    CHECK(std::abs(forecast.one_sample_variance({1, 1}) / (2 * even) - 1) <= 0.03);
+    CHECK(plan.counts({.of_sample = {1, 4}}, {.covers = {true, false}}) == Counts{1, 0});
+    CHECK(plan.counts({.of_sample = {1, 4}}, {.most_samples = 65}) == Counts{64, 1});
+    CHECK(plan.probabilities({.of_sample = {1, 4}}, {.covers = {true, false}}) == std::array{1.0, 0.0});
+    // A control variate is asked for its density where it is not drawn: at this price samples of it are worth more.
+    CHECK(plan.counts({.of_sample = {1, 4}, .of_density = {0, 10}}, {.covers = {true, false}}) != Counts{1, 0});
+
+    // Draws that yield nothing count, and a control variate that has such does not integrate to 1.
+    const auto f = [](double x) { return x < 0.5 ? 4 + x : x; };
+    const auto nothing =
+        piloted(allocate(lumis::OptimalWeights{}, take(1, Interval<double>{0, 1}), take(2, HalfOfHalf{})), f, 20'000);
+    CHECK(std::abs(nothing.forecast().multi_sample_variance({1, 1}) / 1.546875 - 1) <= 0.02);
+    CHECK(nothing.forecast().multi_sample_variance({1, 0}) > 1e300);
+    CHECK(nothing.counts({.of_sample = {1, 1000}}, {.covers = {true, false}})[1] > 0);
 }
 
 // Where techniques do not meet, counts are in proportion to the standard deviation over the root of the cost (Neyman).

@@ -6,10 +6,12 @@
 
 #include "lumis/combine/combination.hpp"
 #include "lumis/combine/detail/pilot_moments.hpp"
+#include "lumis/combine/detail/rounds_in_lanes.hpp"
 #include "lumis/combine/forecast.hpp"
 #include "lumis/core/detail/for_each_index.hpp"
 #include "lumis/core/detail/in_lanes.hpp"
 #include "lumis/core/platform.hpp"
+#include "lumis/core/real.hpp"
 
 #include <glm/vec3.hpp>
 
@@ -34,10 +36,26 @@ struct Luminance {
     }
 };
 
+// In place of a heuristic: the counts are for optimal(take(n, s)...), where a technique of count 0 is a control variate.
+struct OptimalWeights {};
+
 namespace detail {
 
 template <class... S>
 using ForecastOf = Forecast<DeltaStrategy<std::remove_cvref_t<S>>...>;
+
+template <class H, std::size_t smooth>
+using PilotSums = std::conditional_t<std::same_as<H, OptimalWeights>, PilotEquations<smooth>, PilotMoments<smooth>>;
+
+// What a round yields in one lane; R is a number, or lanes of it.
+template <Real R, class X>
+[[nodiscard]] LUMIS_HD auto value_in([[maybe_unused]] std::size_t lane, const X& x) noexcept {
+    if constexpr (std::floating_point<R>) {
+        return x;
+    } else {
+        return lane_of(x, lane);
+    }
+}
 
 }  // namespace detail
 
@@ -55,7 +73,7 @@ class Allocation : private Combination<BalanceHeuristic, S...> {
     static_assert(std::floating_point<Scalar>,
                   "pilot samples are drawn by strategies of numbers, from numbers or from lanes");
 
-    static_assert(smooth <= 1 || DensityHeuristic<H, Scalar, smooth>,
+    static_assert(smooth <= 1 || DensityHeuristic<H, Scalar, smooth> || std::same_as<H, OptimalWeights>,
                   "an allocation weighs by densities; how a partition by points divides samples it does not tell");
 
     LUMIS_HD explicit constexpr Allocation(const H& heuristic, Take<S>&&... techniques)
@@ -74,34 +92,42 @@ class Allocation : private Combination<BalanceHeuristic, S...> {
         using First = typename Base::template Nth<0>;
         using Value = decltype(this->template draw<0, R>(f, detail::next_for<First, R>(uniforms)));
         Value sum = zero<Value>::value();
+        constexpr std::size_t lanes = sizeof(R) / sizeof(Scalar);
+        const auto add_up = [&](const Value& value) { sum = Value(sum + value); };
         detail::for_each_index<size>([&](auto i) {
-            using Part = typename Base::template Nth<i>;
             for (int k = 0; k < counts_[i]; ++k) {
-                const auto sample =
-                    detail::sample_in<R>(this->template strategy<i>(), detail::next_for<Part, R>(uniforms));
-                const Value value =
-                    Base::template as_value<Value>(this->template contribution<i, R>(f, sample, MaskOf<R>(true)));
-                sum = Value(sum + value);
-                if constexpr (std::floating_point<R>) {
-                    record<i>(norm(value), sample);
+                const auto u = detail::next_for<typename Base::template Nth<i>, R>(uniforms);
+                if constexpr (Base::template is_delta<i>) {
+                    const Value value = Base::template as_value<Value>(this->template draw<i, R>(f, u));
+                    add_up(value);
+                    for (std::size_t lane = 0; lane < lanes; ++lane) {
+                        record_delta<i>(norm(detail::value_in<R>(lane, value)));
+                    }
                 } else {
-                    for (std::size_t lane = 0; lane < R::size; ++lane) {
-                        record<i>(norm(detail::lane_of(value, lane)), detail::lane_of_sample(sample, lane));
+                    const auto seen = this->template observe<i, R>(f, u);
+                    R p = Scalar(0);
+                    for (std::size_t t = 0; t < size; ++t) p += this->factor(t) * seen.densities[t];
+                    const R divisor = detail::positive_divisor(seen.drawn, p);
+                    if (real::any(seen.drawn)) {
+                        add_up(detail::selected(seen.drawn, detail::quotient<Value>(seen.value, divisor)));
+                    }
+                    for (std::size_t lane = 0; lane < lanes; ++lane) {
+                        if (detail::number_in(lane, seen.drawn)) {
+                            record(norm(detail::value_in<R>(lane, seen.value)), seen.densities, lane);
+                        } else {
+                            sums_.add_nothing(place<i>(), static_cast<double>(counts_[i]));
+                        }
                     }
                 }
             }
         });
-        if constexpr (std::floating_point<R>) {
-            rounds_ += 1;
-        } else {
-            rounds_ += static_cast<double>(R::size);
-        }
+        rounds_ += static_cast<double>(lanes);
         return sum;
     }
 
     // As if the rounds of `other` had been added here: another thread's, for the same integral.
     LUMIS_HD void merge(const Allocation& other) noexcept {
-        moments_.merge(other.moments_);
+        sums_.merge(other.sums_);
         for (std::size_t d = 0; d < delta_sums_.size(); ++d) {
             delta_sums_[d].first += other.delta_sums_[d].first;
             delta_sums_[d].second += other.delta_sums_[d].second;
@@ -116,9 +142,7 @@ class Allocation : private Combination<BalanceHeuristic, S...> {
     }
 
     // The variance of each split of samples. Those for several integrals add up.
-    [[nodiscard]] LUMIS_HD detail::ForecastOf<S...> forecast() const noexcept {
-        return {moments_, delta_sums_, rounds_};
-    }
+    [[nodiscard]] LUMIS_HD detail::ForecastOf<S...> forecast() const noexcept { return {sums_, delta_sums_, rounds_}; }
 
     // What the forecast for this integral advises: see there.
     [[nodiscard]] LUMIS_HD auto counts(const Costs& costs = {}, const Limits& limits = {}) const noexcept {
@@ -137,37 +161,31 @@ class Allocation : private Combination<BalanceHeuristic, S...> {
         return result;
     }
 
-    // A sample and what it contributes to the round's estimate: f over the sum of all densities, by the balance heuristic.
-    template <std::size_t I, class Drawn>
-    LUMIS_HD void record(double contribution, const Drawn& sample) noexcept {
-        const auto count = static_cast<double>(counts_[I]);
-        if constexpr (Base::template is_delta<I>) {
-            auto& sums = delta_sums_[place<I>()];
-            sums.first += contribution;
-            sums.second += contribution * contribution * count;
-        } else if (!(sample.pdf > 0)) {
-            moments_.add_nothing(place<I>(), count);
-        } else {
-            std::array<double, smooth> densities{};
-            double sum = 0;
-            detail::for_each_index<size>([&](auto k) {
-                if constexpr (!Base::template is_delta<k>) {
-                    double& own = densities[place<k>()];
-                    if constexpr (k == I) {
-                        own = static_cast<double>(sample.pdf);
-                    } else {
-                        own = static_cast<double>(detail::pdf_in<Scalar>(this->template strategy<k>(), sample.value));
-                    }
-                    sum += counts_[k] * own;
-                }
-            });
-            moments_.template add<Scalar>(heuristic_, contribution * sum, densities, sum);
-        }
+    // What one sample of a delta strategy contributes to a round.
+    template <std::size_t I>
+    LUMIS_HD void record_delta(double contribution) noexcept {
+        auto& sums = delta_sums_[place<I>()];
+        sums.first += contribution;
+        sums.second += contribution * contribution * static_cast<double>(counts_[I]);
+    }
+
+    template <Real R>
+    LUMIS_HD void record(double f, const std::array<R, size>& densities_in_lanes, std::size_t lane) noexcept {
+        std::array<double, smooth> densities{};
+        double p = 0;
+        detail::for_each_index<size>([&](auto k) {
+            if constexpr (!Base::template is_delta<k>) {
+                double& own = densities[place<k>()];
+                own = static_cast<double>(detail::number_in(lane, densities_in_lanes[k]));
+                p += counts_[k] * own;
+            }
+        });
+        sums_.template add<Scalar>(heuristic_, f, densities, p);
     }
 
     [[no_unique_address]] H heuristic_;
     std::array<int, size> counts_;
-    detail::PilotMoments<smooth> moments_;
+    detail::PilotSums<H, smooth> sums_;
     std::array<detail::FirstAndSecond, size - smooth> delta_sums_{};
     double rounds_ = 0;
 };
@@ -183,9 +201,10 @@ class Allocation : private Combination<BalanceHeuristic, S...> {
 // weights that were fixed before: the pilot's share of the time, or of the rounds if their number does not depend on the plan.
 // Weights by variances, or by a number of rounds that the plan decides, see the samples and bias the mean.
 template <class H, class First, class... Rest>
-    requires HeuristicFor<H, First, Rest...> && Composable<First, Rest...>
-[[nodiscard]] LUMIS_HD constexpr auto allocate(const H& heuristic, Take<First> first LUMIS_LIFETIME_BOUND,
-                                               Take<Rest>... rest LUMIS_LIFETIME_BOUND) {
+    requires(HeuristicFor<H, First, Rest...> || std::same_as<H, OptimalWeights>)
+&&Composable<First, Rest...> [[nodiscard]] LUMIS_HD constexpr auto allocate(const H& heuristic,
+                                                                            Take<First> first LUMIS_LIFETIME_BOUND,
+                                                                            Take<Rest>... rest LUMIS_LIFETIME_BOUND) {
     return Allocation<H, First, Rest...>{heuristic, std::move(first), std::move(rest)...};
 }
 

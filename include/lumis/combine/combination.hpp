@@ -200,7 +200,6 @@ class Combination {
     static constexpr bool takes_point =
         Takes<F, Point, is_delta<I>, I> || Takes<F, typename detail::PointIn<Point, Scalar, R>::type, is_delta<I>, I>;
 
-  protected:
     // Evaluates f where its weight is positive. A delta strategy's sample, and that of the only strategy with a density, has
     // weight 1. Lanes are evaluated all, if any of them has a weight.
     template <std::size_t I, Real R, class F, class Drawn>
@@ -269,7 +268,6 @@ class Combination {
         }
     }
 
-  private:
     // The effective density with which a point was drawn: 0 in lanes in which none was.
     template <Real R>
     [[nodiscard]] LUMIS_INLINE static R weighed([[maybe_unused]] const MaskOf<R>& drawn, R own) noexcept {

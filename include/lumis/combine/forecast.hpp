@@ -3,53 +3,20 @@
 // from pilot samples, see allocate.hpp.
 #pragma once
 
+#include "lumis/combine/detail/pilot_equations.hpp"
 #include "lumis/combine/detail/pilot_moments.hpp"
 #include "lumis/combine/detail/splits.hpp"
+#include "lumis/combine/sampling_costs.hpp"
 #include "lumis/core/assert.hpp"
 #include "lumis/core/platform.hpp"
 
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <limits>
 
 namespace lumis::LUMIS_ISA {
-
-namespace detail {
-
-template <std::size_t N>
-[[nodiscard]] LUMIS_HD constexpr std::array<double, N> ones() noexcept {
-    std::array<double, N> result{};
-    for (double& x : result) x = 1;
-    return result;
-}
-
-}  // namespace detail
-
-// What an estimate by N techniques costs, in any unit of time.
-template <std::size_t N>
-struct SamplingCosts {
-    // One sample of each technique: drawing it, and evaluating the integrand there. Positive.
-    std::array<double, N> of_sample = detail::ones<N>();
-
-    // The density of each technique at a sample that another one has drawn. It is paid at every sample that has a density,
-    // where the technique takes part.
-    std::array<double, N> of_density{};
-
-    // What an estimate costs besides, whatever it draws: a camera ray, a lookup of textures.
-    double of_estimate = 0;
-};
-
-// What an allocation may do.
-template <std::size_t N>
-struct AllocationLimits {
-    // Techniques that are known to draw all points where the integrand is not 0. Where one of them takes part, others may be
-    // left out, by 128 pilot rounds or more. Else every technique takes part: what no pilot sample has met must still be drawn.
-    // Delta strategies always take part.
-    std::array<bool, N> covers{};
-
-    int most_samples = 16;  // of all techniques together, in a multi-sample estimate
-};
 
 // The variances of estimators that divide their samples among techniques in different ways, as predicted for one integral or
 // for several; is_delta tells which of the techniques are delta strategies. With neither pilot samples nor limits all
@@ -72,29 +39,27 @@ class Forecast {
   public:
     LUMIS_HD Forecast() = default;
 
-    // From so many pilot rounds.
-    LUMIS_HD Forecast(const detail::PilotMoments<smooth>& moments,
-                      const std::array<detail::FirstAndSecond, deltas>& delta_sums, double rounds) noexcept {
-        rounds_ = rounds;
+    // From so many pilot rounds. Sums: PilotMoments, or PilotEquations, which ask every density even of count 0.
+    template <class Sums>
+    LUMIS_HD Forecast(const Sums& sums, const std::array<detail::FirstAndSecond, deltas>& delta_sums,
+                      double rounds) noexcept
+        : rounds_{rounds}, asks_all_{std::same_as<Sums, detail::PilotEquations<smooth>>} {
         if (!(rounds > 0)) return;
         double delta_mean = 0;
         for (std::size_t d = 0; d < deltas; ++d) {
-            const double mean = delta_sums[d].first / rounds;
-            delta_seconds_[d] = delta_sums[d].second / rounds;
-            delta_variances_[d] = delta_seconds_[d] - mean * mean;
-            delta_mean += mean;
+            const double mean = delta_sums[d].first / rounds, second = delta_sums[d].second / rounds;
+            delta_variances_[d] = second - mean * mean;
+            // Optimal weights take the mean off, as if it were known.
+            delta_seconds_[d] = asks_all_ ? delta_variances_[d] : second;
+            if (!asks_all_) delta_mean += mean;
         }
+        misses_ = sums.misses;
         std::size_t k = 0;
         detail::for_each_split<smooth>([&](const auto& split) {
-            double mean = delta_mean;
-            for (std::size_t t = 0; t < smooth; ++t) {
-                if (split[t] == 0) continue;
-                const auto [first, second] = moments.expected(t, k);
-                mean += first;
-                seconds_[k] += second / split[t];
-                variances_[k] += (second - first * first) / split[t];
-            }
-            squared_means_[k] = mean * mean;
+            const detail::SplitOutcome outcome = sums.outcome(k, split, rounds);
+            variances_[k] = outcome.variance;
+            seconds_[k] = outcome.second;
+            squared_means_[k] = (outcome.mean + delta_mean) * (outcome.mean + delta_mean);
             ++k;
         });
     }
@@ -127,6 +92,8 @@ class Forecast {
             for (std::size_t i = 0; i < mine.size(); ++i) mine[i] += theirs[i];
         };
         rounds_ += other.rounds_;
+        asks_all_ = asks_all_ || other.asks_all_;
+        for (std::size_t k = 0; k < splits; ++k) misses_[k] |= other.misses_[k];
         add(variances_, other.variances_);
         add(seconds_, other.seconds_);
         add(squared_means_, other.squared_means_);
@@ -211,7 +178,7 @@ class Forecast {
 
     struct Best {
         Amounts amounts{};
-        double score = std::numeric_limits<double>::infinity();
+        double score = (std::numeric_limits<double>::max)();
 
         // By more than rounding: else the first stays, which is the smaller.
         LUMIS_HD constexpr bool offer(double new_score, const Amounts& new_amounts) noexcept {
@@ -282,16 +249,16 @@ class Forecast {
                 covered = covered || (count > 0 && limits.covers[i]);
                 founded = founded && (count > 0 ? count * rounds_ >= sum_of(split) : rounds_ >= rounds_to_leave_out);
             }
-            if ((complete || covered) && (founded || k == 0)) visit(k, split);
+            if ((complete || covered) && (founded || k == 0) && !misses_[k]) visit(k, split);
             ++k;
         });
     }
 
-    [[nodiscard]] LUMIS_HD static double cost(const Amounts& n, const Costs& costs) noexcept {
+    [[nodiscard]] LUMIS_HD double cost(const Amounts& n, const Costs& costs) const noexcept {
         double densities = 0;  // of all techniques that take part
         for (std::size_t i = 0; i < size; ++i) {
             LUMIS_ASSERT(costs.of_sample[i] > 0 && costs.of_density[i] >= 0);
-            if (!kind(i) && n[i] > 0) densities += costs.of_density[i];
+            if (!kind(i) && (asks_all_ || n[i] > 0)) densities += costs.of_density[i];
         }
         double sum = costs.of_estimate;
         for (std::size_t i = 0; i < size; ++i) {
@@ -323,7 +290,7 @@ class Forecast {
             const double scale = smooth > 0 ? (sum_of(n) - deltas_of(n)) / sum_of(split) : 1;
             Amounts multiple = arranged(split, scale);
             for_each_delta([&](std::size_t i) { multiple[i] = n[i]; });
-            if (multiple == n) result = function(k, scale, n);
+            if (multiple == n) result = misses_[k] ? std::numeric_limits<double>::infinity() : function(k, scale, n);
             ++k;
         });
         return result;
@@ -338,6 +305,8 @@ class Forecast {
     // and the square of the integral. The integral is estimated with each split anew: so its error cancels that of the second
     // moment, where both are nearly equal.
     double rounds_ = 0;
+    bool asks_all_ = false;
+    std::array<bool, splits> misses_{};
     std::array<double, splits> variances_{}, seconds_{}, squared_means_{};
     std::array<double, deltas> delta_variances_{}, delta_seconds_{};  // of one sample
 };

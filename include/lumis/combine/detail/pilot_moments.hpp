@@ -8,15 +8,9 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
-#include <limits>
 #include <span>
 
 namespace lumis::LUMIS_ISA::detail {
-
-// Sums of a number and of its square, or their expectations.
-struct FirstAndSecond {
-    double first{}, second{};
-};
 
 // Sums over pilot rounds, for S techniques with a density. With the counts of a split, technique t contributes
 // h_t(x) = w_t(x) f(x) / p_t(x) at a point x that it draws. The pilot draws m_s samples of each technique s in a round, which
@@ -28,6 +22,7 @@ struct PilotMoments {
     std::array<double, S> masses{};                       // sums of p_t / p, about one a round
     std::array<std::array<double, splits>, S> firsts{};   // sums of h_t p_t / p
     std::array<std::array<double, splits>, S> seconds{};  // sums of h_t^2 p_t / p
+    std::array<bool, splits> misses{};                    // whether a split cannot draw a point where f is not 0
 
     // A pilot sample where the integrand is f. The heuristic weighs numbers T.
     template <std::floating_point T, class H>
@@ -42,9 +37,8 @@ struct PilotMoments {
                 effective[t] = all.counts[t][k] * densities[t];
                 sum += effective[t];
             }
+            misses[k] |= !(sum > 0);
             const double inverse = 1 / (sum > 0 ? sum : 1);
-            // A split that does not draw this point is no estimator of this integral.
-            const double if_never_drawn = sum > 0 ? 0 : std::numeric_limits<double>::infinity();
             for (std::size_t t = 0; t < S; ++t) {
                 double first, second;  // of this sample, times p
                 if constexpr (S == 1 || std::same_as<H, BalanceHeuristic>) {
@@ -56,7 +50,7 @@ struct PilotMoments {
                     second = effective[t] > 0 ? first * first / densities[t] : 0;
                 }
                 firsts[t][k] += first / p;
-                seconds[t][k] += second / p + if_never_drawn;
+                seconds[t][k] += second / p;
             }
         }
     }
@@ -65,6 +59,7 @@ struct PilotMoments {
     LUMIS_HD void add_nothing(std::size_t t, double count) noexcept { masses[t] += 1 / count; }
 
     LUMIS_HD void merge(const PilotMoments& other) noexcept {
+        for (std::size_t k = 0; k < splits; ++k) misses[k] |= other.misses[k];
         for (std::size_t t = 0; t < S; ++t) {
             masses[t] += other.masses[t];
             for (std::size_t k = 0; k < splits; ++k) {
@@ -74,15 +69,23 @@ struct PilotMoments {
         }
     }
 
-    // E[h_t] and E[h_t^2] in split k. Divided by the masses instead of the number of rounds that they estimate: so the variance
-    // of what is nearly constant is nearly 0, and none is negative.
-    [[nodiscard]] LUMIS_HD FirstAndSecond expected(std::size_t t, std::size_t k) const noexcept {
-        if (!(masses[t] > 0)) return {0, seconds[t][k]};
-        return {firsts[t][k] / masses[t], seconds[t][k] / masses[t]};
+    // Expectations: sums over the masses, instead of over the number of rounds that they estimate. So the variance of what is
+    // nearly constant is nearly 0, and none is negative.
+    [[nodiscard]] LUMIS_HD SplitOutcome outcome(std::size_t k, const std::array<int, S>& split,
+                                                double /*rounds*/) const noexcept {
+        SplitOutcome result{};
+        for (std::size_t t = 0; t < S; ++t) {
+            if (split[t] == 0 || !(masses[t] > 0)) continue;
+            const double first = firsts[t][k] / masses[t], second = seconds[t][k] / masses[t];
+            result.mean += first;
+            result.second += second / split[t];
+            result.variance += (second - first * first) / split[t];
+        }
+        return result;
     }
 
   private:
-    // Brought near 1, so that numbers T hold them.
+    // Effective densities are brought near 1, so that numbers T hold them.
     template <std::floating_point T, class H>
     [[nodiscard]] LUMIS_HD static double weight(const H& heuristic, std::size_t own,
                                                 const std::array<double, S>& effective, double scale) noexcept {

@@ -94,4 +94,16 @@ template <std::size_t N>
     return splits;
 }
 
+// Sums of a number and of its square, or their expectations.
+struct FirstAndSecond {
+    double first{}, second{};
+};
+
+// How a split does, as estimated from pilot rounds: what one round of its counts yields.
+struct SplitOutcome {
+    double variance,
+        second;   // sums over techniques: of the variance, and of the second moment, of a contribution over the count
+    double mean;  // the integral
+};
+
 }  // namespace lumis::LUMIS_ISA::detail
