@@ -172,6 +172,17 @@ struct Problem {
         return *this;
     }
 
+    // An estimator that none of the above is: runner(sums, count, uniforms) makes each of the sums that of `count` estimates.
+    // What it has to find out before it estimates belongs into that call, and so into the time. recipe.model is a word for
+    // what it does ("resampled"); a plot has room for it.
+    template <class Runner>
+    Problem& compete(const std::string& competitor, bool unbiased, const Recipe& recipe, const Runner& runner) {
+        const auto run = [](const void* made, const Recipe&, std::span<double> sums, std::int64_t count,
+                            RandomNumbers& uniforms) { (*static_cast<const Runner*>(made))(sums, count, uniforms); };
+        competitors.push_back({competitor, unbiased, recipe, std::shared_ptr<const void>{new Runner{runner}}, run});
+        return *this;
+    }
+
     // One technique more, by itself.
     template <class F, class S>
     Problem& alone(const F& f, const Technique<S>& technique) {

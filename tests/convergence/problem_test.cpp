@@ -71,6 +71,27 @@ TEST_CASE("a density that is wrong by a percent is marked though it is called ri
     CHECK(verdict(study.series.front()) == Verdict::Plateau);
 }
 
+TEST_CASE("an estimator of any kind competes") {
+    // The mean of the square of two uniforms in a row: 1/3.
+    Problem problem{"test", "Square", "", Answer{1 / 3.0}};
+    problem.compete("pairs", true, {"in pairs"},
+                    [](std::span<double> sums, std::int64_t count, RandomNumbers& uniforms) {
+                        for (double& sum : sums) {
+                            sum = 0;
+                            for (std::int64_t i = 0; i < count; ++i) {
+                                const glm::dvec2 u = uniforms.next<2>();
+                                sum += (u.x * u.x + u.y * u.y) / 2;
+                            }
+                        }
+                    });
+    const Study study = measure(problem);
+    const Series& series = study.series.front();
+    CHECK(series.name == "pairs");
+    CHECK(series.recipe.model == "in pairs");
+    CHECK(series.headline);
+    CHECK(verdict(series) == Verdict::Converges);
+}
+
 TEST_CASE("random numbers of different seeds and streams differ and those of one do not") {
     RandomNumbers one{1, 0}, again{1, 0}, other_seed{2, 0}, other_stream{1, 1};
     const auto a = one.next<2>();
