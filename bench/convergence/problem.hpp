@@ -6,6 +6,7 @@
 #include <lumis/combine/heuristics.hpp>
 #include <lumis/combine/multi_sample.hpp>
 #include <lumis/combine/one_sample.hpp>
+#include <lumis/qmc/sobol.hpp>
 
 #include <pcg_random.hpp>
 
@@ -73,6 +74,9 @@ struct Competitor {
     Recipe recipe;
     std::shared_ptr<const void> entrants;
     void (*run_)(const void* entrants, const Recipe&, std::span<double> sums, std::int64_t count, RandomNumbers&);
+    // The estimates of a sum are made together, from points, weights or counts that depend on how many they are: a run of a
+    // length is not the sum of shorter ones, and is measured by itself.
+    bool is_whole = false;
 
     // Each sum becomes that of `count` estimates.
     void run(std::span<double> sums, std::int64_t count, RandomNumbers& uniforms) const {
@@ -123,6 +127,24 @@ struct Entrants {
                    uniforms);
         }
     }
+
+    // Power with the first points of Sobol's sequence, scrambled anew for each sum.
+    static void by_sobol(const void* entrants, const Recipe&, std::span<double> sums, std::int64_t count,
+                         RandomNumbers& uniforms) {
+        const auto& [f, strategies] = *static_cast<const Entrants*>(entrants);
+        const auto once_each = [](const auto&... strategy) {
+            return multi_sample(lumis::PowerHeuristic{}, lumis::take(1, strategy)...);
+        };
+        const auto estimator = std::apply(once_each, strategies);
+        for (double& sum : sums) {
+            lumis::Sobol<double> points{lumis::lattice_index(uniforms.next<1>().x)};
+            sum = 0;
+            for (std::int64_t i = 0; i < count; ++i) {
+                points.start(static_cast<std::uint32_t>(i));
+                sum += estimator.estimate(f, points);
+            }
+        }
+    }
 };
 
 // The same with a partition.
@@ -147,7 +169,7 @@ struct Problem {
     std::vector<std::string> strategies{};
     std::vector<Competitor> competitors{};
 
-    // Each technique alone, and all of them combined in every way: see combine().
+    // Each technique alone, all of them combined in every way, see combine(), and power with Sobol's points.
     template <class F, class... S>
     Problem& compare(const F& f, const Technique<S>&... techniques) {
         (strategies.push_back(techniques.name), ...);
@@ -159,6 +181,8 @@ struct Problem {
         combine("maximum", sizeof...(S), entrants, Entrants::template all<lumis::MaximumHeuristic>);
         combine("cutoff", sizeof...(S), entrants, Entrants::template all<lumis::CutoffHeuristic>);
         combine("average", sizeof...(S), entrants, Entrants::template all<lumis::EqualWeights>);
+        const std::vector<int> once_each(sizeof...(S), 1);
+        competitors.push_back({"sobol", true, {"sobol", "power", once_each, {}}, entrants, Entrants::by_sobol, true});
         return *this;
     }
 
@@ -175,11 +199,14 @@ struct Problem {
     // An estimator that none of the above is: runner(sums, count, uniforms) makes each of the sums that of `count` estimates.
     // What it has to find out before it estimates belongs into that call, and so into the time. recipe.model is a word for
     // what it does ("resampled"); a plot has room for it.
+    // is_whole: see Competitor.
     template <class Runner>
-    Problem& compete(const std::string& competitor, bool unbiased, const Recipe& recipe, const Runner& runner) {
+    Problem& compete(const std::string& competitor, bool unbiased, const Recipe& recipe, const Runner& runner,
+                     bool is_whole = false) {
         const auto run = [](const void* made, const Recipe&, std::span<double> sums, std::int64_t count,
                             RandomNumbers& uniforms) { (*static_cast<const Runner*>(made))(sums, count, uniforms); };
-        competitors.push_back({competitor, unbiased, recipe, std::shared_ptr<const void>{new Runner{runner}}, run});
+        competitors.push_back(
+            {competitor, unbiased, recipe, std::shared_ptr<const void>{new Runner{runner}}, run, is_whole});
         return *this;
     }
 

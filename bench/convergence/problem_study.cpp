@@ -18,11 +18,16 @@ namespace {
 constexpr int ratio_of_lengths = 4, lengths = 5;
 constexpr std::size_t pieces = 256;
 
+// Runs that are wholes have these lengths, in estimates: what a pixel may get. There are at least so many of each for a seed.
+constexpr std::array<std::int64_t, 4> whole_lengths{16, 64, 256, 1024};
+constexpr std::int64_t fewest_wholes = 16;
+
 // The combinations shown first: of a family by weights and counts only these; what is none of it always.
 constexpr std::array<std::string_view, 4> headlines{"balance", "power", "one-sample", "average"};
 bool is_headline(const Competitor& competitor) {
     const std::string& model = competitor.recipe.model;
-    return (model != "multi-sample" && model != "one-sample") || std::ranges::count(headlines, competitor.name) > 0;
+    return competitor.is_whole || (model != "multi-sample" && model != "one-sample") ||
+           std::ranges::count(headlines, competitor.name) > 0;
 }
 
 struct Timed {
@@ -30,7 +35,7 @@ struct Timed {
 };
 
 // Nothing but estimation lies between the two readings of the clocks.
-Timed run(const Competitor& competitor, std::span<double> sums, std::int64_t count, RandomNumbers uniforms) {
+Timed run(const Competitor& competitor, std::span<double> sums, std::int64_t count, RandomNumbers& uniforms) {
     const auto start = std::chrono::steady_clock::now();
     const tracer::ThreadClock clock;
     competitor.run(sums, count, uniforms);
@@ -38,34 +43,112 @@ Timed run(const Competitor& competitor, std::span<double> sums, std::int64_t cou
     return {cpu_seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
 }
 
-// Estimates in a piece, so that a run takes `seconds`; finding out warms the machine up as well.
-std::int64_t affordable_count(const Competitor& competitor, double seconds) {
-    std::vector<double> sums(pieces);
+// Calls of run(count) double its count until they take long enough to be timed: the seconds for each of `count`. Finding out
+// warms the machine up as well.
+double seconds_each(double seconds, const auto& run) {
     for (std::int64_t count = 1;; count *= 2) {
-        const double taken = run(competitor, sums, count, RandomNumbers{0}).cpu_seconds;
-        if (taken < std::min(seconds / 4, 1e-3)) continue;
-        return std::max<std::int64_t>(1, std::llround(static_cast<double>(count) * seconds / taken));
+        const double taken = run(count).cpu_seconds;
+        if (taken >= std::min(seconds / 4, 1e-3)) return taken / static_cast<double>(count);
     }
 }
 
+// Runs of one length: so many of each seed.
+struct Length {
+    std::int64_t samples, runs;
+};
+
+// What a seed's run consists of, so that it takes `seconds`; wholes may take longer, for there are a few of each length.
+std::vector<Length> affordable_lengths(const Competitor& competitor, double seconds) {
+    const auto at_least = [](std::int64_t least, double count) {
+        return std::max(least, static_cast<std::int64_t>(std::llround(count)));
+    };
+    std::vector<Length> result;
+    RandomNumbers uniforms{0};
+    if (competitor.is_whole) {
+        for (const std::int64_t samples : whole_lengths) {
+            const double each = seconds_each(seconds, [&](std::int64_t runs) {
+                std::vector<double> sums(static_cast<std::size_t>(runs));
+                return run(competitor, sums, samples, uniforms);
+            });
+            const double share = seconds / static_cast<double>(whole_lengths.size());
+            result.push_back({samples, std::min(at_least(fewest_wholes, share / each), std::int64_t{pieces})});
+        }
+        return result;
+    }
+    std::vector<double> sums(pieces);
+    const double each =
+        seconds_each(seconds, [&](std::int64_t count) { return run(competitor, sums, count, uniforms); });
+    std::int64_t samples = at_least(1, seconds / each);
+    for (std::int64_t runs = pieces; runs >= 1; runs /= ratio_of_lengths, samples *= ratio_of_lengths) {
+        result.push_back({samples, runs});
+    }
+    return result;
+}
+
+std::int64_t count_not_finite(std::span<const double> values) {
+    return std::ranges::count_if(values, [](double value) { return !std::isfinite(value); });
+}
+
 // How many of the run's estimates are not finite. The timed loop keeps sums alone; where one of them is spoilt, the run is
-// made once more, estimate by estimate.
+// made once more, estimate by estimate. Wholes are counted as one each.
 std::int64_t count_not_finite(const Competitor& competitor, std::span<const double> sums, std::int64_t count,
                               RandomNumbers uniforms) {
-    const auto is_finite = [](double value) { return std::isfinite(value); };
-    if (std::ranges::all_of(sums, is_finite)) return 0;
+    const std::int64_t spoilt = count_not_finite(sums);
+    if (spoilt == 0 || competitor.is_whole) return spoilt;
     std::vector<double> estimates(sums.size());
     std::int64_t found = 0;
     for (std::int64_t i = 0; i < count; ++i) {
         competitor.run(estimates, 1, uniforms);
-        found += std::ranges::count_if(estimates, std::not_fn(is_finite));
+        found += count_not_finite(estimates);
     }
     return found;
 }
 
-// The errors of one seed's run, and of the shorter runs that it consists of.
-std::vector<Measurement> measurements(std::vector<double> sums, std::int64_t count, const Timed& time, double answer) {
-    std::vector<Measurement> result;
+// The mean square error of runs of one length, and the time of one.
+Measurement measurement(std::span<const double> sums, std::int64_t count, const Timed& time, double answer) {
+    Moments squares;
+    for (const double sum : sums) {
+        const double error = sum / static_cast<double>(count) - answer;
+        squares.add(error * error);
+    }
+    const double part = 1 / static_cast<double>(sums.size());
+    return {part * time.cpu_seconds, part * time.wall_seconds, squares.mean(), squares.mean() / (answer * answer)};
+}
+
+// One seed's run of a competitor: a measurement for each length, and the means by which it is judged as a whole.
+struct SeedsRun {
+    std::vector<Measurement> measurements;
+    std::vector<double> means;
+    std::int64_t not_finite = 0, evaluated = 0;
+};
+
+// Each length by itself. The longest runs are those to be judged by.
+SeedsRun run_wholes(const Competitor& competitor, std::span<const Length> lengths_of_runs, std::uint64_t seed,
+                    std::uint64_t stream, double answer) {
+    SeedsRun result;
+    RandomNumbers uniforms{seed, stream};
+    for (const auto& [samples, runs] : lengths_of_runs) {
+        std::vector<double> sums(static_cast<std::size_t>(runs));
+        const Timed time = run(competitor, sums, samples, uniforms);
+        result.measurements.push_back(measurement(sums, samples, time, answer));
+        result.not_finite += count_not_finite(sums);
+        result.evaluated += runs;
+        result.means = std::move(sums);
+        for (double& mean : result.means) mean /= static_cast<double>(samples);
+    }
+    return result;
+}
+
+// One run, and the shorter runs that it consists of. The shortest are those to be judged by.
+SeedsRun run_pieces(const Competitor& competitor, std::int64_t count, std::uint64_t seed, std::uint64_t stream,
+                    double answer) {
+    SeedsRun result;
+    std::vector<double> sums(pieces);
+    RandomNumbers uniforms{seed, stream};
+    const Timed time = run(competitor, sums, count, uniforms);
+    for (const double sum : sums) result.means.push_back(sum / static_cast<double>(count));
+    result.not_finite = count_not_finite(competitor, sums, count, RandomNumbers{seed, stream});
+    result.evaluated = count * static_cast<std::int64_t>(pieces);
     for (int length = 0; length < lengths; ++length) {
         if (length > 0) {
             for (std::size_t i = 0; i < sums.size() / ratio_of_lengths; ++i) {
@@ -75,14 +158,7 @@ std::vector<Measurement> measurements(std::vector<double> sums, std::int64_t cou
             sums.resize(sums.size() / ratio_of_lengths);
             count *= ratio_of_lengths;
         }
-        Moments squares;
-        for (const double sum : sums) {
-            const double error = sum / static_cast<double>(count) - answer;
-            squares.add(error * error);
-        }
-        const double part = 1 / static_cast<double>(sums.size());
-        result.push_back(
-            {part * time.cpu_seconds, part * time.wall_seconds, squares.mean(), squares.mean() / (answer * answer)});
+        result.measurements.push_back(measurement(sums, count, time, answer));
     }
     return result;
 }
@@ -117,40 +193,41 @@ Study problem_study(const std::string& name, const Problem& problem, const std::
                        {}};
 
     progress(name);
-    std::vector<std::int64_t> counts;
-    std::vector<std::vector<double>> means(problem.competitors.size());
-    std::vector<std::int64_t> not_finite(problem.competitors.size());
+    std::vector<std::vector<Length>> runs;
     for (const Competitor& competitor : problem.competitors) {
-        counts.push_back(affordable_count(competitor, seconds));
+        runs.push_back(affordable_lengths(competitor, seconds));
         Series series;
         series.name = competitor.name;
         series.unbiased = competitor.unbiased;
+        series.is_whole = competitor.is_whole;
         series.recipe = competitor.recipe;
         series.headline = is_headline(competitor);
-        std::int64_t samples = counts.back(), runs = pieces;
-        for (int length = 0; length < lengths; ++length) {
-            series.samples.push_back(samples);
-            series.runs_per_seed.push_back(runs);
-            samples *= ratio_of_lengths;
-            runs /= ratio_of_lengths;
+        for (const Length& length : runs.back()) {
+            series.samples.push_back(length.samples);
+            series.runs_per_seed.push_back(length.runs);
         }
         study.series.push_back(std::move(series));
     }
     // All estimators take turns, so that a drift of the machine's speed hits all alike.
-    std::vector<double> sums(pieces);
+    std::vector<std::vector<double>> means(study.series.size());
     for (const std::uint64_t seed : seeds) {
         for (std::size_t i = 0; i < study.series.size(); ++i) {
-            const Timed time = run(problem.competitors[i], sums, counts[i], RandomNumbers{seed, i});
-            study.series[i].runs.push_back(measurements(sums, counts[i], time, answer.value));
-            for (const double sum : sums) means[i].push_back(sum / static_cast<double>(counts[i]));
-            not_finite[i] += count_not_finite(problem.competitors[i], sums, counts[i], RandomNumbers{seed, i});
+            const Competitor& competitor = problem.competitors[i];
+            SeedsRun result = competitor.is_whole
+                                  ? run_wholes(competitor, runs[i], seed, i, answer.value)
+                                  : run_pieces(competitor, runs[i].front().samples, seed, i, answer.value);
+            study.series[i].runs.push_back(std::move(result.measurements));
+            means[i].insert(means[i].end(), result.means.begin(), result.means.end());
+            study.series[i].pooled.not_finite += result.not_finite;
+            study.series[i].pooled.evaluated += result.evaluated;
         }
     }
     for (std::size_t i = 0; i < study.series.size(); ++i) {
         Pooled& pooled = study.series[i].pooled;
+        const std::int64_t not_finite = pooled.not_finite, evaluated = pooled.evaluated;
         pooled = pool(means[i], answer.value, answer.error);
-        pooled.not_finite = not_finite[i];
-        pooled.evaluated = counts[i] * static_cast<std::int64_t>(means[i].size());
+        pooled.not_finite = not_finite;
+        pooled.evaluated = evaluated;
     }
     return study;
 }

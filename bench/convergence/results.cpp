@@ -92,6 +92,11 @@ json effort_json(const std::optional<Effort>& effort) {
             {"extrapolated", effort->extrapolated}};
 }
 
+json spread_json(const Spread& spread) {
+    if (std::isnan(spread.median)) return nullptr;
+    return {spread.least, spread.lower_quartile, spread.median, spread.upper_quartile, spread.largest};
+}
+
 json point_json(const Series& series, std::size_t point) {
     const auto cpu = series.over_seeds(point, &Measurement::cpu_seconds);
     const auto relative = series.over_seeds(point, &Measurement::relative_squared_error);
@@ -120,6 +125,7 @@ json series_json(const Series& series, const Study& study) {
                 {"counts", numbers_or_null(series.recipe.counts)},
                 {"probabilities", numbers_or_null(series.recipe.probabilities)},
                 {"headline", series.headline},
+                {"whole_runs", series.is_whole},
                 {"unbiased", series.unbiased},
                 {"verdict", name(verdict(series))},
                 {"not_finite", series.pooled.not_finite},
@@ -128,6 +134,7 @@ json series_json(const Series& series, const Study& study) {
                 {"mean_standard_error", number(series.pooled.standard_error)},
                 {"bias_z", number(series.pooled.bias_z)},
                 {"tail_share", number(series.pooled.tail_share)},
+                {"spread", spread_json(spread(series))},
                 {"to_10_percent", effort_json(effort_to(series, 0.1))},
                 {"to_1_percent", effort_json(effort_to(series, 0.01))},
                 {"slope", number(exponent.value)},

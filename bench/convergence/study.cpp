@@ -69,7 +69,9 @@ double student_t(const Series& series, double tail) {
 // Where the efficiency is read off, and the time to an error: an unbiased estimator's are the same at every sample count.
 std::size_t firmest_point(const Series& series) {
     const std::size_t last = series.samples.size() - 1;
-    if (!series.unbiased || verdict(series) == Verdict::Plateau || series.runs_per_seed.empty()) return last;
+    if (!series.unbiased || series.is_whole || verdict(series) == Verdict::Plateau || series.runs_per_seed.empty()) {
+        return last;
+    }
     std::size_t best = last;
     for (std::size_t i = 0; i < last; ++i) {
         if (series.runs_per_seed[i] > series.runs_per_seed[best]) best = i;
@@ -105,6 +107,23 @@ Band relative_error(const Series& series, std::size_t point) {
     const double root = std::sqrt(std::max(errors.mean(), 0.0));
     const double half_width = student_t(series, 0.025) * errors.standard_error() / (2 * errors.mean());
     return {root, root * std::exp(-half_width), root * std::exp(half_width)};
+}
+
+Spread spread(const Series& series) {
+    const std::size_t point = firmest_point(series);
+    const double root = relative_error(series, point).value;
+    if (!(root > 0 && std::isfinite(root))) return {nan, nan, nan, nan, nan};
+    std::vector<double> errors;
+    for (const auto& run : series.runs) {
+        errors.push_back(std::sqrt(std::max(run[point].relative_squared_error, 0.0)) / root);
+    }
+    std::ranges::sort(errors);
+    const auto quantile = [&errors](double part) {
+        const double place = part * static_cast<double>(errors.size() - 1);
+        const auto below = static_cast<std::size_t>(place), above = std::min(below + 1, errors.size() - 1);
+        return std::lerp(errors[below], errors[above], place - static_cast<double>(below));
+    };
+    return {errors.front(), quantile(0.25), quantile(0.5), quantile(0.75), errors.back()};
 }
 
 double slope_limit(const Series& series) {
@@ -147,7 +166,8 @@ Verdict verdict(const Series& series) {
     if (series.pooled.tail_share > tail_limit) return Verdict::HeavyTails;
     if (std::abs(series.pooled.bias_z) > Rules::bias_z_limit) return Verdict::Plateau;
     const Estimate exponent = slope(series, Over::Samples);
-    const bool as_expected = std::abs(exponent.value + 0.5) <= slope_limit(series) * exponent.standard_error;
+    const double beyond = exponent.value + 0.5, limit = slope_limit(series) * exponent.standard_error;
+    const bool as_expected = (series.is_whole ? beyond : std::abs(beyond)) <= limit;
     return as_expected ? Verdict::Converges : Verdict::Unexplained;
 }
 
@@ -187,7 +207,8 @@ std::optional<Effort> effort_to(const Series& series, double target) {
     std::size_t reached = 0;
     while (reached < points && !(relative_error(series, reached).value <= target)) ++reached;
     const bool is_beyond = reached == 0 || reached == points;
-    if (series.unbiased && found == Verdict::Converges) return by_slope(firmest_point(series), is_beyond);
+    if (series.unbiased && !series.is_whole && found == Verdict::Converges)
+        return by_slope(firmest_point(series), is_beyond);
     if (reached == 0) return by_slope(0, is_beyond);
     if (reached == points) {
         if (!series.unbiased || found == Verdict::Plateau) return {};

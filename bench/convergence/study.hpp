@@ -52,7 +52,8 @@ struct Series {
     std::vector<std::vector<Measurement>> runs;  // by seed, then by sample count
     std::optional<Picture> picture;
     Recipe recipe;
-    bool headline = true;                     // one of the few that a plot has room for
+    bool headline = true;   // one of the few that a plot has room for
+    bool is_whole = false;  // a run's length decides its efficiency: it is not the sum of shorter ones
     std::vector<std::int64_t> runs_per_seed;  // by sample count: independent runs whose mean a measurement is
     Pooled pooled;
 
@@ -123,7 +124,14 @@ struct Band {
 };
 [[nodiscard]] Band relative_error(const Series& series, std::size_t point);
 
-// |slope + 1/2| over samples may be this many standard errors.
+// The seeds' relative errors over their root mean square, in order, where efficiency is read off: an outlier shows in the largest.
+// NaN where there is no error to go by.
+struct Spread {
+    double least, lower_quartile, median, upper_quartile, largest;
+};
+[[nodiscard]] Spread spread(const Series& series);
+
+// |slope + 1/2| over samples may be this many standard errors. Where runs are wholes it may be steeper by any number.
 [[nodiscard]] double slope_limit(const Series& series);
 
 struct Rules {
@@ -144,8 +152,8 @@ enum class Verdict { NotFinite, NoHits, Exact, HeavyTails, Plateau, Converges, U
 [[nodiscard]] std::string_view name(Verdict verdict);
 
 // The effort that takes an estimator to a relative error: of one that converges, from where most runs stand behind it, by
-// the slope -1/2; of others between two measured points, and beyond those by the slope. One sample is the least. Nothing if
-// a plateau is in the way, or the verdict says that nothing is known.
+// the slope -1/2; of others, and of wholes, between two measured points, and beyond those by the slope -1/2. One sample is the
+// least. Nothing if a plateau is in the way, or the verdict says that nothing is known.
 struct Effort {
     double samples, cpu_seconds;
     bool extrapolated;  // beyond the points measured
@@ -153,7 +161,7 @@ struct Effort {
 [[nodiscard]] std::optional<Effort> effort_to(const Series& series, double relative_error);
 
 // 1 / (relative squared error x CPU time), in 1/s, where most runs stand behind it: an unbiased estimator has the same at
-// every sample count. One that converges elsewhere is judged by its longest run. NaN where there is no error to go by: of
+// every sample count. One that converges elsewhere is judged by its longest run, and so is one whose runs are wholes. NaN where there is no error to go by: of
 // what is exact, not finite or without hits, and where the error vanishes in that of the reference.
 [[nodiscard]] Estimate efficiency(const Series& series);
 

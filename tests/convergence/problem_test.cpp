@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 using namespace convergence;
@@ -30,7 +31,7 @@ TEST_CASE("a file in the folder of problems is found and measured") {
     const Study study = measure(entry->make());
     CHECK(study.reference.value == std::numbers::pi / 4);
 
-    // 5 heuristics with three counts and three probabilities, and two techniques alone.
+    // 5 heuristics with three counts and three probabilities, two techniques alone, and Sobol's points.
     std::set<std::string> names;
     for (const Series& series : study.series) {
         names.insert(series.name);
@@ -39,13 +40,43 @@ TEST_CASE("a file in the folder of problems is found and measured") {
         CHECK(std::abs(series.pooled.bias_z) <= 5);
         CHECK(verdict(series) == Verdict::Converges);
         CHECK(series.samples.size() == series.runs.front().size());
+        CHECK(series.is_whole == (series.name == "sobol"));
     }
-    CHECK(study.series.size() == 32);
-    CHECK(names.size() == 32);
+    CHECK(study.series.size() == 33);
+    CHECK(names.size() == 33);
     CHECK(names.contains("power 1:4"));
     CHECK(names.contains("one-sample maximum 0.9"));
     CHECK(series_of(study, "balance 4:1").recipe.counts == std::vector{4, 1});
     CHECK(series_of(study, "one-sample 0.1").recipe.probabilities == std::vector{0.1, 0.9});
+}
+
+TEST_CASE("runs that are wholes are measured length by length") {
+    // Of one number: the count of estimates, by which a run is off.
+    Problem problem{"test", "Counts", "", Answer{1}};
+    problem.compete(
+        "counts", true, {"counting"},
+        [](std::span<double> sums, std::int64_t count, RandomNumbers& uniforms) {
+            const auto n = static_cast<double>(count);
+            for (double& sum : sums) sum = n + (uniforms.next<1>().x < 0.5 ? 1 : -1);
+        },
+        true);
+    const Study study = measure(problem);
+    const Series& series = study.series.front();
+    CHECK(series.samples == std::vector<std::int64_t>{16, 64, 256, 1024});
+    for (std::size_t i = 0; i < series.samples.size(); ++i) {
+        CHECK(series.runs_per_seed[i] >= 16);
+        const double error = std::sqrt(series.over_seeds(i, &Measurement::squared_error).mean());
+        CHECK(std::abs(error * static_cast<double>(series.samples[i]) - 1) <= 1e-12);
+    }
+    CHECK(verdict(series) == Verdict::Converges);  // with a slope of -1
+    CHECK(std::abs(slope(series, Over::Samples).value + 1) <= 1e-9);
+    CHECK(series.pooled.evaluated == 8 * std::accumulate(series.runs_per_seed.begin(), series.runs_per_seed.end(), 0));
+}
+
+TEST_CASE("Sobol's points converge faster than random numbers") {
+    const Study study = measure(std::ranges::find(registered_problems(), "quarter-circle", &Entry::name)->make());
+    CHECK(slope(series_of(study, "sobol"), Over::Samples).value <= -0.9);
+    CHECK(efficiency(series_of(study, "sobol")).value >= 10 * efficiency(series_of(study, "power")).value);
 }
 
 TEST_CASE("a technique that converges elsewhere is marked") {

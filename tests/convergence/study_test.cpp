@@ -159,6 +159,20 @@ TEST_CASE("a slope that nothing explains is marked") {
     CHECK(verdict(series) == Verdict::Unexplained);
 }
 
+TEST_CASE("where runs are wholes a slope may be steeper, and the longest run is judged by") {
+    Series steep = power_law(0.2, -1.2), shallow = power_law(0.2, -0.3);
+    steep.runs_per_seed = shallow.runs_per_seed = {4096, 4096, 4096};
+    CHECK(verdict(steep) == Verdict::Unexplained);
+    steep.is_whole = shallow.is_whole = true;
+    CHECK(verdict(steep) == Verdict::Converges);
+    CHECK(verdict(shallow) == Verdict::Unexplained);
+    // After 1.6 s, the longest run, the error is 0.2 * 1.6^-1.2.
+    CHECK_THAT(efficiency(steep).value, WithinRel(1 / (1.6 * std::pow(0.2 * std::pow(1.6, -1.2), 2)), 1e-9));
+    // In between by the steps measured, and beyond by the slope -1/2, which is sure.
+    CHECK_THAT(effort_to(steep, 0.2 * std::pow(0.8, -1.2))->cpu_seconds, WithinRel(0.8, 1e-9));
+    CHECK_THAT(effort_to(steep, 0.1 * std::pow(1.6, -1.2))->cpu_seconds, WithinRel(6.4, 1e-9));
+}
+
 TEST_CASE("what a run costs besides its samples is no convergence") {
     Series series = power_law(0.2, -0.5);
     int hash = 0;
@@ -171,6 +185,21 @@ TEST_CASE("what a run costs besides its samples is no convergence") {
     CHECK(slope(series).value <= -0.55);
     CHECK_THAT(slope(series, Over::Samples).value, WithinAbs(-0.5, 1e-5));
     CHECK(verdict(series) == Verdict::Converges);
+}
+
+TEST_CASE("the spread over seeds shows an outlier") {
+    Series series = power_law(0.2, -0.5);
+    const double alike = spread(series).largest;
+    CHECK_THAT(alike, WithinRel(1.0, 1e-9));
+    CHECK(spread(series).least == alike);
+    // One of four seeds is off by five times as much: over a root mean square of sqrt(7) times the others.
+    for (Measurement& m : series.runs[2]) m.relative_squared_error *= 25;
+    const Spread uneven = spread(series);
+    CHECK_THAT(uneven.largest, WithinRel(5 / std::sqrt(7.0), 1e-9));
+    CHECK_THAT(uneven.median, WithinRel(1 / std::sqrt(7.0), 1e-9));
+    CHECK_THAT(uneven.upper_quartile, WithinRel((1 + 0.25 * 4) / std::sqrt(7.0), 1e-9));
+    series.runs[0].back().relative_squared_error = std::numeric_limits<double>::quiet_NaN();
+    CHECK(std::isnan(spread(series).largest));
 }
 
 TEST_CASE("the tail share is that of the largest thousandth") {
