@@ -2,6 +2,7 @@
 // registers it; measuring, statistics and output are the program's.
 #pragma once
 
+#include "learning.hpp"
 #include "study.hpp"
 #include <lumis/combine/heuristics.hpp>
 #include <lumis/combine/multi_sample.hpp>
@@ -169,7 +170,8 @@ struct Problem {
     std::vector<std::string> strategies{};
     std::vector<Competitor> competitors{};
 
-    // Each technique alone, all of them combined in every way, see combine(), and power with Sobol's points.
+    // Each technique alone, all of them combined in every way, see combine(), power with Sobol's points, and what
+    // learns from samples.
     template <class F, class... S>
     Problem& compare(const F& f, const Technique<S>&... techniques) {
         (strategies.push_back(techniques.name), ...);
@@ -183,6 +185,10 @@ struct Problem {
         combine("average", sizeof...(S), entrants, Entrants::template all<lumis::EqualWeights>);
         const std::vector<int> once_each(sizeof...(S), 1);
         competitors.push_back({"sobol", true, {"sobol", "power", once_each, {}}, entrants, Entrants::by_sobol, true});
+        compete("optimal", true, {"optimal", {}, once_each, {}}, OptimalWeights<F, S...>{f, {techniques.strategy...}},
+                true);
+        compete("allocated", true, {"allocated", "balance", {}, {}},
+                AllocatedSamples<F, S...>{f, {techniques.sees_all...}, techniques.strategy...}, true);
         return *this;
     }
 
