@@ -7,6 +7,7 @@
 #include "lumis/combine/detail/parts.hpp"
 #include "lumis/combine/heuristics.hpp"
 #include "lumis/combine/integrand.hpp"
+#include "lumis/combine/pairwise_weights.hpp"
 #include "lumis/combine/technique.hpp"
 #include "lumis/combine/weighted_sample.hpp"
 #include "lumis/combine/zero.hpp"
@@ -16,6 +17,7 @@
 #include "lumis/core/uniforms.hpp"
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <span>
 #include <type_traits>
@@ -47,7 +49,7 @@ inline constexpr std::size_t number_of_smooth = (std::size_t{!DeltaStrategy<std:
 
 // clang-format off: it takes the template arguments for comparisons
 template <class H, std::size_t N, class S>
-concept Weighs = Heuristic < H,
+concept Weighs = std::same_as<H, PairwiseWeights> || Heuristic < H,
         scalar_of<typename S::Scalar>,
 typename S::Point, N > ;
 // clang-format on
@@ -189,7 +191,7 @@ class Combination {
     [[nodiscard]] LUMIS_HD constexpr Scalar factor(std::size_t i) const noexcept { return factors_[i]; }
     [[nodiscard]] LUMIS_HD constexpr const std::array<Scalar, size>& factors() const noexcept { return factors_; }
 
-  private:
+    // The rest is how estimates come about: for estimators that do not add contributions up, too.
     template <class, std::size_t, class, Real>
     friend class WeightedSample;
 
@@ -342,6 +344,15 @@ class Combination {
             } else {
                 return detail::each_lane<R>(weight, x);
             }
+        } else if constexpr (std::same_as<H, PairwiseWeights>) {
+            const auto factor = [&](auto k) { return is_delta<k> ? Scalar(T(0)) : factors_[k]; };
+            return heuristic_.template weight<I, size, R>(factor, [&](auto k) {
+                if constexpr (k == I) {
+                    return own();
+                } else {
+                    return other(k);
+                }
+            });
         } else {
             std::array<R, size> q{};
             detail::for_each_index<size>([&](auto k) {
@@ -355,6 +366,7 @@ class Combination {
         }
     }
 
+  private:
     [[no_unique_address]] H heuristic_;
     std::array<Scalar, size> factors_;
     detail::Parts<First, Rest...> strategies_;
