@@ -206,7 +206,8 @@ class LightSet {
         return {selected.value, sample};
     }
     [[nodiscard]] LUMIS_HD Scalar pdf_of(std::size_t index, const Point& x) const noexcept {
-        return table_.pdf(index) * static_cast<Scalar>(light(index).pdf(x));
+        const Scalar selected = table_.pdf(index);  // 0 for an index that is none, of which no light must be made
+        return selected > 0 ? selected * static_cast<Scalar>(light(index).pdf(x)) : Scalar(0);
     }
     // The same where the host knows where a ray hit light `index`, see AreaLight::pdf_from_hit.
     [[nodiscard]] LUMIS_HD Scalar pdf_of_hit(std::size_t index, Scalar distance,
