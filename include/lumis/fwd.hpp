@@ -73,6 +73,8 @@ class PiecewiseConstant2DView;
 template <Real T>
 struct CosineHemisphere;
 template <Real T>
+class UniformCone;
+template <Real T>
 struct UniformHemisphere;
 template <Real T>
 struct UniformSphere;
@@ -121,6 +123,8 @@ template <std::floating_point T>
 class PointLight;
 template <std::floating_point T>
 class DirectionalLight;
+template <Real T>
+class Sun;
 enum class Interpolation;
 struct EnvironmentOptions;
 template <class Point, Real Scalar>

@@ -66,6 +66,7 @@ bool check_directions() {
     bool good = check("uniform sphere", UniformSphere<float>{});
     good &= check("uniform hemisphere", UniformHemisphere<float>{});
     good &= check("cosine hemisphere", CosineHemisphere<float>{});
+    good &= check("uniform cone", UniformCone{0.3f});
     const Frame frame{glm::vec3{0.6f, -0.48f, 0.64f}};
     good &= check("in frame", in_frame(frame, CosineHemisphere<float>{}));
     return good;
@@ -101,6 +102,7 @@ bool check_lights() {
     good &= check("surface area", SurfaceArea{triangle}) & check("surface area", SurfaceArea{disk});
     good &= check("surface area", SurfaceArea{sphere}) & check("emission", SurfaceEmission{parallelogram, Sides::Both});
     good &= check("point light", PointLight<float>{{1, 2, 3}, {0, 0, 0.5f}});
+    good &= check("sun", Sun{glm::vec3{0.6f, 0, 0.8f}, 0.00465f});
     good &= check("directional light", DirectionalLight<float>{{0.6f, 0, 0.8f}});
     return good;
 }

@@ -42,6 +42,43 @@ struct WithoutParameters {
     }
 };
 
+// By the half-angle.
+struct Cone {
+    static constexpr std::size_t parameters = 1;
+    template <class R>
+    static auto make(const std::array<R, 1>& half_angle) {
+        return lumis::UniformCone<R>{half_angle[0]};
+    }
+    template <class T>
+    static std::array<T, 1> random(std::mt19937& engine) {
+        std::uniform_real_distribution<double> logarithm{-10, 1};
+        return {T(std::exp(logarithm(engine)))};
+    }
+    template <class T>
+    static std::vector<std::array<T, 1>> degenerate() {
+        return {{0}, {-1}, {not_a_number<T>}, {T(1e-30)}, {4}};
+    }
+};
+
+// By the direction of its centre, and the half-angle.
+struct Sun {
+    static constexpr std::size_t parameters = 4;
+    template <class R>
+    static auto make(const std::array<R, 4>& p) {
+        return lumis::Sun<R>{lumis::Direction<R>{p[0], p[1], p[2]}, p[3]};
+    }
+    template <class T>
+    static std::array<T, 4> random(std::mt19937& engine) {
+        const auto w = random_unit<T>(engine);
+        return {w.x, w.y, w.z, Cone::random<T>(engine)[0]};
+    }
+    template <class T>
+    static std::vector<std::array<T, 4>> degenerate() {
+        const T nan = not_a_number<T>, wide = T(0.3);
+        return {{0, 0, 0, wide}, {0, 0, -1, wide}, {3, 4, 0, wide}, {nan, 0, 1, wide}, {0, 1, 0, nan}, {0, 1, 0, 0}};
+    }
+};
+
 // By a normal: x, y, z.
 struct InFrameOfNormal {
     static constexpr std::size_t parameters = 3;
@@ -257,7 +294,7 @@ struct MakeSphere {
 
 using WithOwnParameters =
     std::tuple<WithoutParameters<lumis::CosineHemisphere>, WithoutParameters<lumis::UniformHemisphere>,
-               WithoutParameters<lumis::UniformSphere>, InFrameOfNormal, InFrameOfThree,
+               WithoutParameters<lumis::UniformSphere>, Cone, Sun, InFrameOfNormal, InFrameOfThree,
                OfDirectionAndRoughness<MakeGgxNdf>, OfDirectionAndRoughness<MakeGgxVndf>,
                OfDirectionAndRoughness<MakeGgxReflection>, OfDirectionAndRoughness<MakeGgxBoundedReflection>,
                OfDirectionAndRoughness<MakeReflectedNdf>, OfDirectionAndRoughness<MakePerfectReflection>,

@@ -162,6 +162,25 @@ struct SphereBySolidAngle {
     }
 };
 
+struct Sun {
+    template <class T>
+    static auto make() {
+        std::vector<Subject<lumis::Sun<T>>> result;
+        for (const double half_angle : {1e-4, 0.00465, 0.3, 2.0}) {
+            result.push_back({label("half-angle ", half_angle),
+                              {glm::vec<3, T>(sphere_direction), static_cast<T>(half_angle)},
+                              lumis::testing::lobe_chart(sphere_direction, 1.4 * std::sin(half_angle / 2)),
+                              1.0,
+                              20 * std::numeric_limits<T>::epsilon() / half_angle});
+            result.back().integrand = [half_angle](const glm::dvec3& w) {
+                return std::atan2(glm::length(glm::cross(w, sphere_direction)), glm::dot(w, sphere_direction)) <
+                       half_angle;
+            };
+        }
+        return result;
+    }
+};
+
 // Where a map's luminance is not 0. Compensated, a map leaves to others what is not above its mean.
 template <class T>
 WhereDirections lit(int width, int height, const std::vector<T>& texels, bool nearest, bool compensated) {

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -69,6 +71,23 @@ struct UniformSphere {
                  .strategy = {},
                  .chart = lumis::testing::sphere_chart(),
                  .integrand = lumis::testing::everywhere}};
+    }
+};
+
+struct UniformCone {
+    template <class T>
+    static auto make() {
+        std::vector<Subject<lumis::UniformCone<T>>> result;
+        for (const double half_angle : {1e-4, 0.00465, 0.3, 1.5, 3.0, 3.2}) {
+            const double sine = std::sin(std::fmin(half_angle / 2, std::numbers::pi / 2));
+            result.push_back({label("half-angle ", half_angle), lumis::UniformCone<T>{static_cast<T>(half_angle)},
+                              lumis::testing::lobe_chart(glm::dvec3{0, 0, 1}, 1.4 * sine), 1.0,
+                              20 * std::numeric_limits<T>::epsilon() / half_angle});
+            result.back().integrand = [half_angle](const glm::dvec3& w) {
+                return std::atan2(std::hypot(w.x, w.y), w.z) < half_angle;
+            };
+        }
+        return result;
     }
 };
 

@@ -12,6 +12,7 @@
 using Strategies = std::tuple<subjects::CosineHemisphere,           //
                               subjects::UniformHemisphere,          //
                               subjects::UniformSphere,              //
+                              subjects::UniformCone,                //
                               subjects::GgxNdf,                     //
                               subjects::GgxVndf,                    //
                               subjects::GgxReflection,              //
@@ -27,6 +28,7 @@ using Strategies = std::tuple<subjects::CosineHemisphere,           //
                               subjects::TriangleBySolidAngle,       //
                               subjects::ParallelogramBySolidAngle,  //
                               subjects::SphereBySolidAngle,         //
+                              subjects::Sun,                        //
                               subjects::EnvironmentMap,             //
                               subjects::CompensatedEnvironmentMap,  //
                               subjects::AliasEnvironmentMap,        //
