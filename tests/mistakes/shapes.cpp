@@ -48,8 +48,14 @@ int main() {
 #ifdef TRIANGLES_BY_SOLID_ANGLE_IN_LANES  // says: of lanes only Sphere
     const AreaLight<Triangle<FourFloats>, BySolidAngle> triangles{{z, z, z}, z};
 #endif
-#ifdef NO_SAMPLING  // says: draws ByArea or BySolidAngle
+#ifdef NO_SAMPLING  // says: draws ByArea, BySolidAngle or ByCosine
     const AreaLight<Sphere<float>, int> other{};
+#endif
+#ifdef SPHERE_BY_COSINE  // says: draws Triangle and Parallelogram by cosine
+    const AreaLight<Sphere<float>, ByCosine> by_cosine{};
+#endif
+#ifdef HIT_BY_COSINE  // says: depends on the direction and the receiver's normal
+    sum += pdf_from_hit<ByCosine>(Triangle<float>{}, glm::vec3{0}, 1, 1);
 #endif
     return sum > 0 ? 0 : 1;
 }

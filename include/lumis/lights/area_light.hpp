@@ -1,7 +1,7 @@
 // A light of finite area as a distribution of directions from a reference point. World space, density per solid angle. It
 // is seen from both sides, or as Sides says.
 // ByArea draws a surface point evenly and converts the density; BySolidAngle draws a direction evenly over what is seen,
-// see area_light_by_solid_angle.hpp.
+// see area_light_by_solid_angle.hpp; ByCosine where the cosine at the receiver is large too, see area_light_by_cosine.hpp.
 #pragma once
 
 #include "lumis/core/measure.hpp"
@@ -23,6 +23,7 @@ namespace lumis::LUMIS_ISA {
 
 struct ByArea {};        // every shape
 struct BySolidAngle {};  // Triangle, Parallelogram, Sphere
+struct ByCosine {};      // Triangle, Parallelogram: by solid angle and the cosine at a receiver
 
 // Shapes that a Sampling does not know. A disk is seen as an elliptic cone: a map even over that has no closed form.
 template <class S, class Sampling = ByArea>
@@ -31,7 +32,12 @@ class AreaLight {
                   "lumis::AreaLight draws Triangle, Parallelogram and Sphere by solid angle (include "
                   "lumis/lights/area_light_by_solid_angle.hpp), of lanes only Sphere; any other shape ByArea, a Disk "
                   "for one");
-    static_assert(std::same_as<Sampling, BySolidAngle>, "lumis::AreaLight draws ByArea or BySolidAngle");
+    static_assert(
+        !std::same_as<Sampling, ByCosine>,
+        "lumis::AreaLight draws Triangle and Parallelogram by cosine (include "
+        "lumis/lights/area_light_by_cosine.hpp), not of lanes; a Sphere BySolidAngle, any other shape ByArea");
+    static_assert(std::same_as<Sampling, BySolidAngle> || std::same_as<Sampling, ByCosine>,
+                  "lumis::AreaLight draws ByArea, BySolidAngle or ByCosine");
 };
 template <class S>
 class AreaLight<S, ByArea> {

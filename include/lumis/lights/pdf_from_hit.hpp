@@ -24,6 +24,9 @@ template <class Sampling = ByArea, Shape S>
     const S& shape, const glm::vec<3, typename S::Scalar>& reference_point, typename S::Scalar distance,
     typename S::Scalar cos_light, Sides sides = Sides::Both) noexcept {
     using T = typename S::Scalar;
+    static_assert(!std::same_as<Sampling, ByCosine>,
+                  "the density by cosine depends on the direction and the receiver's normal: write "
+                  "AreaLight<Shape, ByCosine>{shape, reference_point, normal}.pdf_from_hit(w)");
     if constexpr (std::same_as<Sampling, BySolidAngle>) {
         static_assert(std::same_as<S, Triangle<T>> || std::same_as<S, Parallelogram<T>> || std::same_as<S, Sphere<T>>,
                       "by solid angle are drawn Triangle, Parallelogram and Sphere: write pdf_from_hit<ByArea>");

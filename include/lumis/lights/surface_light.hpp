@@ -3,6 +3,7 @@
 //
 //     const SurfaceLight light{triangle, point};                                    // evenly by area
 //     const SurfaceLight<Triangle<float>, BySolidAngle> by_angle{triangle, point, Sides::One};
+//     const SurfaceLight<Triangle<float>, ByCosine> by_cosine{triangle, point, normal};
 //     const auto s = light.sample(u);                                               // s.surface.uv
 //
 // Where such lights are combined with other techniques, an integrand that takes the whole sample is told the surface of the
@@ -13,6 +14,8 @@
 #include "lumis/core/surface_point.hpp"
 #include "lumis/lights/area_light.hpp"
 #include "lumis/lights/area_light_by_solid_angle.hpp"
+
+#include <concepts>
 
 namespace lumis::LUMIS_ISA {
 
@@ -30,9 +33,16 @@ class SurfaceLight {
     static constexpr int dimensions = 2;
 
     LUMIS_INLINE SurfaceLight(const S& shape, const glm::vec<3, Scalar>& reference_point) noexcept
+        requires(!std::same_as<Sampling, ByCosine>)
         : light_{shape, reference_point}, shape_{shape} {}
     LUMIS_INLINE SurfaceLight(const S& shape, const glm::vec<3, Scalar>& reference_point, Sides sides) noexcept
+        requires(!std::same_as<Sampling, ByCosine>)
         : light_{shape, reference_point, sides}, shape_{shape} {}
+    // normal: of the receiver, see area_light_by_cosine.hpp.
+    LUMIS_INLINE SurfaceLight(const S& shape, const glm::vec<3, Scalar>& reference_point,
+                              const Direction<Scalar>& normal,
+                              Sides sides = Sides::Both) noexcept requires std::same_as<Sampling, ByCosine>
+        : light_{shape, reference_point, normal, sides}, shape_{shape} {}
 
     // As AreaLight's; nothing drawn: the surface point means nothing, but is finite.
     template <RealOf<Scalar> R = Scalar>
@@ -64,8 +74,13 @@ class SurfaceLight {
     }
 
     // See AreaLight.
-    [[nodiscard]] LUMIS_HD Scalar pdf_from_hit(Scalar distance, Scalar cos_light) const noexcept {
+    [[nodiscard]] LUMIS_HD Scalar pdf_from_hit(Scalar distance, Scalar cos_light) const noexcept
+        requires(!std::same_as<Sampling, ByCosine>) {
         return light_.pdf_from_hit(distance, cos_light);
+    }
+    [[nodiscard]] LUMIS_HD Scalar
+    pdf_from_hit(const Point& w) const noexcept requires std::same_as<Sampling, ByCosine> {
+        return light_.pdf_from_hit(w);
     }
 
     [[nodiscard]] LUMIS_HD const S& shape() const noexcept LUMIS_LIFETIME_BOUND { return shape_; }

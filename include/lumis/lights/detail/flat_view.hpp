@@ -126,15 +126,17 @@ class FlatView {
     }
 
     // w: unit. By triple products (Moller and Trumbore 1997), which are compared before they are divided by the cosine. The
-    // edges give way by the rounding of w, so that a direction drawn to a point on an edge meets it.
+    // edges give way by the rounding of w, so that a direction drawn to a point on an edge meets it: `slack` times as much for
+    // directions that have been rounded more often.
     template <RealOf<T> R = T>
-    [[nodiscard]] LUMIS_HD SurfaceHit<R> intersect(const Direction<R>& w) const noexcept {
+    [[nodiscard]] LUMIS_HD SurfaceHit<R> intersect(const Direction<R>& w, T slack = 1) const noexcept {
         const auto [distance, cos_light] = meet_plane(w);
         const R reach = real::abs(cos_light), sign = real::copysign(R(scalar_of<R>(1)), cos_light);
         const R s = sign * glm::dot(w, Direction<R>(across_u_)), t = sign * glm::dot(w, Direction<R>(across_v_));
-        const auto below_far_edges = is_triangle ? s + t <= reach + (rounding_u_ + rounding_v_)
-                                                 : s <= reach + rounding_u_ && t <= reach + rounding_v_;
-        return hit_if(distance > 0 && s >= -rounding_u_ && t >= -rounding_v_ && below_far_edges, distance, cos_light);
+        const T blur_u = slack * rounding_u_, blur_v = slack * rounding_v_;
+        const auto below_far_edges =
+            is_triangle ? s + t <= reach + (blur_u + blur_v) : s <= reach + blur_u && t <= reach + blur_v;
+        return hit_if(distance > 0 && s >= -blur_u && t >= -blur_v && below_far_edges, distance, cos_light);
     }
 
   private:

@@ -42,6 +42,9 @@ class SphericalTriangle {
     using Vector = glm::vec<3, Wide>;
 
   public:
+    // 0 sr.
+    SphericalTriangle() = default;
+
     // Vertices relative to the reference point, and the edges from a to b and from a to c, which the caller may know better
     // than their differences. Their squares have to be in range. 0 sr without area, edge-on and from a vertex.
     LUMIS_INLINE SphericalTriangle(const Vector& a, const Vector& b, const Vector& c, const Vector& ab,

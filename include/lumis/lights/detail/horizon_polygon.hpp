@@ -1,0 +1,133 @@
+// The part of a triangle or parallelogram above a receiver's horizon, and its point nearest to the receiver's normal, where the
+// cosine at the receiver is largest.
+#pragma once
+
+#include "lumis/core/platform.hpp"
+#include "lumis/core/real.hpp"
+#include "lumis/lights/detail/flat_shape.hpp"
+
+#include <glm/geometric.hpp>
+
+namespace lumis::LUMIS_ISA::detail {
+
+// A point of the shape: its coordinates there, so that differences between points lie in its plane and keep their digits; its
+// position relative to the reference point; and its cosine at the receiver.
+template <class W>
+struct HorizonPoint {
+    glm::vec<2, W> at{};
+    glm::vec<3, W> position{};
+    W height{};  // over the horizon
+    W length{};  // of the position
+    W cosine{};
+};
+
+template <class Shape>
+class HorizonPolygon {
+    using W = typename FlatShape<Shape>::Wide;
+    using Vector = glm::vec<3, W>;
+    using Point = HorizonPoint<W>;
+
+  public:
+    static constexpr int most_vertices = FlatShape<Shape>::is_triangle ? 4 : 5;
+
+    LUMIS_INLINE HorizonPolygon(const FlatShape<Shape>& shape, const Vector& normal) noexcept
+        : edges_{shape.in_units()}, normal_{normal} {
+        constexpr int corners = FlatShape<Shape>::is_triangle ? 3 : 4;
+        const glm::vec<2, W> at[] = {
+            {0, 0}, {1, 0}, corners == 3 ? glm::vec<2, W>{0, 1} : glm::vec<2, W>{1, 1}, {0, 1}};
+        W heights[corners];
+        for (int i = 0; i < corners; ++i) heights[i] = glm::dot(position_at(at[i]), normal);
+        for (int i = 0; i < corners; ++i) {
+            const int k = i + 1 < corners ? i + 1 : 0;
+            const bool above = heights[i] > 0, next_above = heights[k] > 0;
+            if (above) add(at[i], heights[i]);
+            // Where the edge meets the horizon, as a share of the edge from the end that is above.
+            if (above && !next_above)
+                add(at[i] + (at[k] - at[i]) * real::divide(heights[i], heights[i] - heights[k]), 0);
+            if (!above && next_above)
+                add(at[k] + (at[i] - at[k]) * real::divide(heights[k], heights[k] - heights[i]), 0);
+        }
+    }
+
+    [[nodiscard]] LUMIS_HD int size() const noexcept { return size_; }
+
+    // Counted around.
+    [[nodiscard]] LUMIS_HD const Point& operator[](int i) const noexcept {
+        return vertices_[i < size_ ? i : i - size_];
+    }
+
+    // From one of its points to another.
+    [[nodiscard]] LUMIS_INLINE Vector between(const Point& from, const Point& to) const noexcept {
+        const glm::vec<2, W> d = to.at - from.at;
+        return d.x * edges_.edge_u + d.y * edges_.edge_v;
+    }
+
+    // Where the polygon is nearest to the normal. `next` is the vertex after it, in the order of the polygon.
+    enum class Nearest { Normal, Edge, Vertex };
+    struct NearestPoint {
+        Nearest is;
+        int next;
+        Point point;
+    };
+    // Of a polygon that has vertices.
+    [[nodiscard]] LUMIS_INLINE NearestPoint nearest_to_normal() const noexcept {
+        NearestPoint nearest{Nearest::Vertex, 1, vertices_[0]};
+        for (int i = 1; i < size_; ++i) {
+            if (vertices_[i].cosine > nearest.point.cosine) nearest = {Nearest::Vertex, i + 1, vertices_[i]};
+        }
+        const Vector across = cross(edges_.edge_u, edges_.edge_v);
+        const W volume = glm::dot(edges_.corner, across), facing = glm::dot(across, normal_);
+        bool is_inside = facing > 0 || facing < 0;
+        // An edge's own nearest point counts where its cosine is much larger: otherwise it is not worth another triangle.
+        W least = nearest.point.cosine * scalar_of<W>(1.1);
+        for (int i = 0; i < size_; ++i) {
+            const Point &p = vertices_[i], &q = (*this)[i + 1];
+            const W side = glm::dot(cross(p.position, between(p, q)), normal_);
+            if (volume > 0 ? side > 0 : side < 0) continue;
+            is_inside = false;
+            // How steeply the arc rises at either end.
+            const W pq = glm::dot(p.position, q.position);
+            const W at_p = q.height * (p.length * p.length) - p.height * pq;
+            const W at_q = q.height * pq - p.height * (q.length * q.length);
+            if (!(at_p > 0 && at_q < 0)) continue;
+            const Point foot = point_at(p.at + (q.at - p.at) * real::divide(at_p, at_p - at_q));
+            if (!(foot.cosine > least)) continue;
+            least = foot.cosine;
+            nearest = {Nearest::Edge, i + 1, foot};
+        }
+        if (is_inside) {
+            const glm::vec<2, W> at{glm::dot(cross(edges_.edge_v, edges_.corner), normal_),
+                                    glm::dot(cross(edges_.corner, edges_.edge_u), normal_)};
+            nearest = {Nearest::Normal, 0, point_at(real::divide(at, facing))};
+        }
+        return nearest;
+    }
+
+  private:
+    [[nodiscard]] LUMIS_INLINE Vector position_at(const glm::vec<2, W>& at) const noexcept {
+        return edges_.corner + (at.x * edges_.edge_u + at.y * edges_.edge_v);
+    }
+
+    [[nodiscard]] LUMIS_INLINE Point point_at(const glm::vec<2, W>& at) const noexcept {
+        Point p{at, position_at(at)};
+        p.height = glm::dot(p.position, normal_);
+        return measured(p);
+    }
+
+    [[nodiscard]] LUMIS_INLINE static Point measured(Point p) noexcept {
+        p.length = real::length(p.position);
+        p.cosine = real::quotient_where(p.length > 0, p.height, p.length);
+        return p;
+    }
+
+    LUMIS_INLINE void add(const glm::vec<2, W>& at, W height) noexcept {
+        vertices_[size_++] = measured(Point{at, position_at(at), height});
+    }
+
+    typename FlatShape<Shape>::Edges edges_;
+    Vector normal_;
+    Point vertices_[most_vertices];
+    int size_{0};
+};
+
+}  // namespace lumis::LUMIS_ISA::detail
