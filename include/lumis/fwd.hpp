@@ -104,6 +104,7 @@ template <Real T>
 struct Sphere;
 struct ByArea;
 struct BySolidAngle;
+struct ByCosine;
 enum class Sides;
 template <class S, class Sampling>
 class AreaLight;

@@ -36,6 +36,7 @@
 #include "lumis/directions/uniform_sphere.hpp"
 #include "lumis/fwd.hpp"
 #include "lumis/lights/area_light.hpp"
+#include "lumis/lights/area_light_by_cosine.hpp"
 #include "lumis/lights/area_light_by_solid_angle.hpp"
 #include "lumis/lights/directional_light.hpp"
 #include "lumis/lights/environment_map.hpp"

@@ -99,6 +99,9 @@ bool check_lights() {
     const Sphere<float> sphere{{1, 1, 4}, 0.7f};
     bool good = check_shapes<ByArea>("by area", triangle, parallelogram, disk, sphere);
     good &= check_shapes<BySolidAngle>("by solid angle", triangle, parallelogram, sphere);
+    const glm::vec3 point{0.1f, -0.2f, 0.3f}, normal{0.6f, 0, 0.8f};
+    good &= check("triangle by cosine", AreaLight<Triangle<float>, ByCosine>{triangle, point, normal});
+    good &= check("parallelogram by cosine", SurfaceLight<Parallelogram<float>, ByCosine>{parallelogram, point, normal});
     good &= check("surface area", SurfaceArea{triangle}) & check("surface area", SurfaceArea{disk});
     good &= check("surface area", SurfaceArea{sphere}) & check("emission", SurfaceEmission{parallelogram, Sides::Both});
     good &= check("point light", PointLight<float>{{1, 2, 3}, {0, 0, 0.5f}});

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "combined_subjects.hpp"
+#include "cosine_subjects.hpp"
 #include "light_subjects.hpp"
 #include "scattering_subjects.hpp"
 #include "solid_angle_subjects.hpp"
@@ -28,6 +29,8 @@ using Strategies = std::tuple<subjects::CosineHemisphere,           //
                               subjects::TriangleBySolidAngle,       //
                               subjects::ParallelogramBySolidAngle,  //
                               subjects::SphereBySolidAngle,         //
+                              subjects::TriangleByCosine,           //
+                              subjects::ParallelogramByCosine,      //
                               subjects::Sun,                        //
                               subjects::EnvironmentMap,             //
                               subjects::CompensatedEnvironmentMap,  //
