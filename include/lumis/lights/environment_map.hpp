@@ -11,6 +11,7 @@
 #include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/strategy.hpp"
+#include "lumis/lights/detail/bilinear_means.hpp"
 #include "lumis/tables/detail/alias_rows.hpp"
 #include "lumis/tables/detail/arrays.hpp"
 #include "lumis/tables/detail/count_grid.hpp"
@@ -248,28 +249,12 @@ class BasicEnvironmentMap {
         return real::largest_of(largest) > (1 + 1e-6) * mean ? mean : 0.0;
     }
 
-    // Sets means[x] to the mean of the interpolated luminance over texel x of row y. A bilinear function's mean over a cell
-    // weighs the cell's own value by 3/4 and its two neighbours by 1/8 in either direction: it is 0 only where the function
-    // is.
+    // Sets means[x] to the mean of the interpolated luminance over texel x of row y.
     void mean_luminance(auto luminance, std::size_t y, Interpolation interpolation,
                         std::span<double> means) const noexcept {
-        const std::size_t n = width();
-        const auto texels = [&](std::size_t row) { return luminance.subspan(row * n, n); };
-        if (interpolation == Interpolation::Nearest) {
-            for (std::size_t x = 0; x < n; ++x) means[x] = static_cast<double>(texels(y)[x]);
-            return;
-        }
-        const auto above = texels(y > 0 ? y - 1 : 0), here = texels(y), below = texels(y + 1 < height() ? y + 1 : y);
-        const auto down = [&](std::size_t x) {
-            return 0.125 * static_cast<double>(above[x]) + 0.75 * static_cast<double>(here[x]) +
-                   0.125 * static_cast<double>(below[x]);
-        };
-        const auto across = [&](std::size_t left, std::size_t x, std::size_t right) {
-            means[x] = 0.125 * down(left) + 0.75 * down(x) + 0.125 * down(right);
-        };
-        across(n - 1, 0, n > 1 ? 1 : 0);
-        for (std::size_t x = 1; x + 1 < n; ++x) across(x - 1, x, x + 1);
-        across(n > 1 ? n - 2 : 0, n - 1, 0);
+        if (interpolation == Interpolation::Bilinear)
+            return detail::bilinear_means(luminance, width(), y, detail::AcrossEdges::Wrap, means);
+        for (std::size_t x = 0; x < width(); ++x) means[x] = static_cast<double>(luminance[y * width() + x]);
     }
 
     detail::CountGrid<T, Rows, Array> grid_;
