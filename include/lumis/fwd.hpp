@@ -110,6 +110,8 @@ template <class S, class Sampling>
 class AreaLight;
 template <class S, class Sampling>
 class SurfaceLight;
+template <std::floating_point T>
+class ImageLight;
 template <class S>
 class SurfaceArea;
 template <class S>

@@ -40,6 +40,7 @@
 #include "lumis/lights/area_light_by_solid_angle.hpp"
 #include "lumis/lights/directional_light.hpp"
 #include "lumis/lights/environment_map.hpp"
+#include "lumis/lights/image_light.hpp"
 #include "lumis/lights/light_set.hpp"
 #include "lumis/lights/pdf_from_hit.hpp"
 #include "lumis/lights/point_light.hpp"

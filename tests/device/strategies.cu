@@ -126,6 +126,11 @@ bool check_tables() {
     good &= check_table("fine alias table", FineAliasTable{weights});
     good &= check_table("piecewise constant, 1D", PiecewiseConstant1D{weights});
     good &= check_table("piecewise constant, 2D", PiecewiseConstant2D{64, 32, weights});
+    const Parallelogram<float> screen{{-1, -1, 2}, {2, 0, 0.1f}, {0, 1.5f, 0}};
+    const PiecewiseConstant2D image{64, 32, weights};
+    device::Copies copies;
+    good &= check("image light", ImageLight{screen, image.view(), glm::vec3{0}},
+                  ImageLight{screen, image.view(copies), glm::vec3{0}});
     good &= check_table("environment map", EnvironmentMap{64, 32, weights});
     good &= check_table("alias environment map", AliasEnvironmentMap{64, 32, weights});
     return good;

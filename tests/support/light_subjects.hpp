@@ -181,6 +181,41 @@ struct Sun {
     }
 };
 
+struct ImageLight {
+    // Three by two texels, one of them dark; the chart is the screen itself.
+    template <class T>
+    static auto make() {
+        static const lumis::PiecewiseConstant2D<T> table{3, 2, std::vector<T>{T(1), T(0), T(7), T(2), T(0.5), T(30)}};
+        std::vector<Subject<lumis::ImageLight<T>>> result;
+        const auto add = [&](const char* name, const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v,
+                             lumis::Sides sides) {
+            const lumis::Parallelogram<T> shape{glm::vec<3, T>(corner), glm::vec<3, T>(u), glm::vec<3, T>(v)};
+            const glm::dvec3 normal = glm::cross(u, v);
+            const auto uv = [=](const glm::dvec3& w) -> glm::dvec2 {
+                const glm::dvec3 d = glm::dot(corner, normal) / glm::dot(w, normal) * w - corner;
+                return glm::dvec2{glm::dot(glm::cross(d, v), normal), glm::dot(glm::cross(u, d), normal)} /
+                       glm::dot(normal, normal);
+            };
+            lumis::testing::DirectionChart chart;
+            chart.at = [=](double s, double t) -> lumis::testing::DirectionChart::Place {
+                const glm::dvec3 p = corner + t * u + s * v;
+                const double distance = glm::length(p);
+                return {p / distance, std::abs(glm::dot(p, normal)) / (distance * distance * distance)};
+            };
+            chart.coordinates = [=](const glm::dvec3& w) -> glm::dvec2 { return {uv(w).y, uv(w).x}; };
+            chart.s_edges = {0, 0.5, 1};
+            chart.t_edges = {0, 1.0 / 3, 2.0 / 3, 1};
+            result.push_back({name, {shape, table, {}, sides}, chart});
+            result.back().integrand = [uv, hits = meets(shape, {})](const glm::dvec3& w) {
+                return hits(w) && !(uv(w).y < 0.5 && uv(w).x > 1.0 / 3 && uv(w).x < 2.0 / 3);
+            };
+        };
+        add("square above", {-1, -1, 1}, {2, 0, 0}, {0, 2, 0}, lumis::Sides::Both);
+        add("skew, of one side", {1, -1, 2}, {-1, 1, 0.3}, {2, 0.5, 1}, lumis::Sides::One);
+        return result;
+    }
+};
+
 // Where a map's luminance is not 0. Compensated, a map leaves to others what is not above its mean.
 template <class T>
 WhereDirections lit(int width, int height, const std::vector<T>& texels, bool nearest, bool compensated) {

@@ -31,6 +31,7 @@ using Strategies = std::tuple<subjects::CosineHemisphere,           //
                               subjects::SphereBySolidAngle,         //
                               subjects::TriangleByCosine,           //
                               subjects::ParallelogramByCosine,      //
+                              subjects::ImageLight,                 //
                               subjects::Sun,                        //
                               subjects::EnvironmentMap,             //
                               subjects::CompensatedEnvironmentMap,  //
