@@ -60,6 +60,10 @@ Measured spherical_rectangle(Effort effort);
 template <class T>
 Measured polygon_edges_close_by(Effort effort);
 template <class T>
+Measured polygons_by_cosine(Effort effort);
+template <class T>
+Measured cones(Effort effort);
+template <class T>
 Measured environment_shapes(Effort effort);
 template <class T>
 Measured environment_compensation(Effort effort);
