@@ -22,6 +22,7 @@ ROOMS = {
     "lights": SCATTERING,
     "combine": [*SCATTERING, "lights/"],
     "batch": [*SCATTERING, "lights/", "combine/"],
+    "qmc": ["core/"],
     "statistics": ["core/"],
     "testing": [*SCATTERING, "lights/", "combine/", "batch/", "statistics/"],
     "fwd.hpp": ["core/platform", "core/scalar", "core/detail/isa"],  # no GLM
@@ -30,11 +31,13 @@ STRATEGIES = ("tables/", "directions/", "microfacets/", "lights/")
 # Headers that are built upon a strategy, or upon a surface or shape that users include as well.
 BUILT_UPON = [
     (r"microfacets/(detail/)?ggx_\w+", r"microfacets/(ggx|ggx_vndf|reflected)"),
-    (r"lights/(detail/\w+|area_light\w*|surface\w*|pdf_from_hit)", r"lights/(shapes|surface)"),
+    (r"lights/(detail/\w+|area_light\w*|image_light|surface\w*|pdf_from_hit)", r"lights/(shapes|surface)"),
     (r"lights/area_light_by_solid_angle", r"lights/area_light"),
-    (r"lights/(surface_light|pdf_from_hit|detail/hit_density)", r"lights/area_light(_by_solid_angle)?"),
+    (r"lights/(area_light_by_cosine|surface_light|pdf_from_hit|detail/hit_density)",
+     r"lights/area_light(_by_solid_angle)?"),
     (r"lights/surface_area", r"directions/cosine_hemisphere"),
     (r"lights/light_set", r"tables/alias_table"),
+    (r"lights/image_light", r"tables/piecewise_constant"),
 ]
 
 
@@ -64,7 +67,7 @@ for name, included in headers.items():
             pair = name.removesuffix(".hpp"), other.removesuffix(".hpp")
             if not any(re.fullmatch(a, pair[0]) and re.fullmatch(b, pair[1]) for a, b in BUILT_UPON):
                 wrong.append(f"{name} includes {other}: who wants the one gets the other")
-    by_name = room in ("batch", "testing")
+    by_name = room in ("batch", "qmc", "testing")
     if by_name and name in all_of_it:
         wrong.append(f"lumis.hpp includes {name}, which is included by name")
     if not by_name and name not in all_of_it and not any(name in headers[other] for other in headers):
