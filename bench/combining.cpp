@@ -1,9 +1,11 @@
 // A weight of two techniques, weight/<heuristic>_2/<form>/<scalar>, or of many, weight/<heuristic>_<techniques>/single/...,
-// and a whole estimate of direct light at a point, estimate/direct_<model>/single/<scalar>.
+// and a whole estimate of direct light at a point, estimate/direct_<model>/single/<scalar>. Those of optimal weights are of a
+// round, into sums for one integral (optimal), for a new one every 16 rounds (optimal_16), or with given weights (optimal_given).
 #include "forms.hpp"
 #include "subjects.hpp"
 #include "textbook/weights.hpp"
 #include <lumis/batch/batch.hpp>
+#include <lumis/combine/optimal.hpp>
 #include <lumis/lumis.hpp>
 
 #include <benchmark/benchmark.h>
@@ -88,6 +90,32 @@ struct Reflectance {
     T operator()(const lumis::Direction<T>& w) const { return w.z > 0 && light.pdf(w) > 0 ? w.z : T(0); }
 };
 
+template <class T, class Best>
+void add_optimal(const Best& fresh, const Reflectance<T>& f) {
+    const auto uniforms = lazily([] { return Uniforms<T>{few}; });
+    const std::string name = "estimate/direct_optimal";
+    const auto add_every = [=](const std::string& full, std::size_t rounds) {
+        add_form<T>(full + "/single", ready(fresh), uniforms,
+                    [=](const Best& start, const Uniforms<T>& u, std::size_t, Results<T>& out) {
+                        Prepared<T> source{u.x};
+                        for (std::size_t i = 0; i < batch; i += rounds) {
+                            Best best = start;
+                            for (std::size_t round = 0; round < rounds; ++round) best.add(f, source);
+                            out.x[i] = best.estimate();
+                        }
+                    });
+    };
+    add_every(name, batch);
+    add_every(name + "_16", 16);
+    add_form<T>(name + "_given/single", ready(fresh), uniforms,
+                [=](const Best& start, const Uniforms<T>& u, std::size_t, Results<T>& out) {
+                    Prepared<T> source{u.x};
+                    const typename Best::Weights alpha{0.1, 0.2};
+                    const auto& techniques = start.techniques();
+                    for (T& result : out.x) result = static_cast<T>(techniques.round(f, source).estimate(alpha));
+                });
+}
+
 template <class T>
 void add_all() {
     add_pair<T>("balance", lumis::BalanceHeuristic{}, textbook::BalanceHeuristic{});
@@ -113,6 +141,7 @@ void add_all() {
     add("balance", multi_sample(BalanceHeuristic{}, take(1, bsdf), take(1, light)));
     add("power", multi_sample(PowerHeuristic{}, take(1, bsdf), take(1, light)));
     add("one_sample", one_sample(BalanceHeuristic{}, choose(0.5, bsdf), choose(0.5, light)));
+    add_optimal<T>(optimal(take(1, bsdf), take(1, light)), Reflectance<T>{light});
 }
 
 const bool added = (add_all<float>(), add_all<double>(), true);
