@@ -151,6 +151,8 @@ struct CutoffHeuristic;
 struct EqualWeights;
 template <class Owner>
 struct PartitionWeights;
+template <std::size_t N>
+struct BalanceWithFactors;
 template <class S>
 struct Take;
 template <class S>
@@ -165,6 +167,14 @@ template <class H, class... S>
 class MultiSample;
 template <class H, class... S>
 class OneSample;
+template <class Wide, std::size_t K>
+struct Round;
+template <class Value, std::size_t K>
+class CrossFitted;
+template <class... S>
+class MultiSampleRounds;
+template <class... S>
+class OneSampleRounds;
 
 // statistics
 template <std::floating_point T>

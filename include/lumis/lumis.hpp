@@ -22,6 +22,7 @@
 #include "lumis/combine/mixture.hpp"
 #include "lumis/combine/multi_sample.hpp"
 #include "lumis/combine/one_sample.hpp"
+#include "lumis/combine/optimal.hpp"
 #include "lumis/combine/variant_strategy.hpp"
 #include "lumis/core/frame.hpp"
 #include "lumis/core/latlong.hpp"

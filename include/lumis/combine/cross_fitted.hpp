@@ -16,8 +16,9 @@ namespace lumis::LUMIS_ISA {
 
 // Accumulates rounds of K techniques for one integral: of a number or, with weights for each component, of a glm::vec. Sums in
 // double, whatever Value is.
-template <SumsInDouble Value, std::size_t K>
+template <class Value, std::size_t K>
 class CrossFitted {
+    static_assert(SumsInDouble<Value>, "optimal weights are for integrands that return a number or a glm::vec");
     using Wide = InDouble<Value>;
     using Moments = detail::FoldMoments<Wide>;
 
