@@ -228,6 +228,7 @@ TEMPLATE_TEST_CASE("heuristics raise no floating-point exception", "[exceptions]
                 CHECK(exceptions_raised_by([&] {
                           keep(lumis::mis_weight(heuristic, a, b));
                           keep(lumis::mis_weight(heuristic, a, b, T(1)));
+                          keep(lumis::mis_weight(lumis::BalanceWithFactors{1e-3, 1e3}, a, b));
                       }) == 0);
                 for (const std::size_t size : {2u, 8u, 40u}) {
                     std::vector<T> many(size, b);
@@ -268,4 +269,27 @@ TEMPLATE_TEST_CASE("estimators raise no floating-point exception", "[exceptions]
                   keep(moments.standard_error());
               }) == 0);
     });
+}
+
+// From the first round on: where there are no others, nothing is known of the weights and of the error.
+TEMPLATE_TEST_CASE("optimal weights raise no floating-point exception", "[exceptions]", float, double) {
+    using T = TestType;
+    using V = glm::vec<3, T>;
+    const lumis::AreaLight light{lumis::Parallelogram<T>{V(-1, -1, 1), V(2, 0, 0), V(0, 2, 0)}, V(T(0))};
+    const lumis::CosineHemisphere<T> bsdf;
+    const lumis::GgxReflection<T> glossy{V(T(0.6), T(0), T(0.8)), {T(0.9), T(0.9)}};
+    const auto f = [&](const V& w) { return w.z > 0 && light.pdf(w) > 0 ? V(w.z, 1, 0) : V(T(0)); };
+    const auto check = [&](auto best) {
+        lumis::Uniforms<std::mt19937, T> source{std::mt19937{2}};
+        CHECK(exceptions_raised_by([&] {
+                  for (int i = 0; i < 200; ++i) {
+                      keep(best.estimate());
+                      keep(best.standard_error());
+                      keep(best.weights());
+                      best.add(f, source);
+                  }
+              }) == 0);
+    };
+    check(lumis::optimal<V>(lumis::take(1, bsdf), lumis::take(2, light), lumis::take(1, glossy), lumis::take(1, bsdf)));
+    check(lumis::optimal<V>(lumis::choose(0.3, bsdf), lumis::choose(0.5, light), lumis::choose(0, light)));
 }

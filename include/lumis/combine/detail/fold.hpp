@@ -52,8 +52,10 @@ struct FoldMoments {
 
     // Of the mean; NaN for fewer than two numbers.
     [[nodiscard]] LUMIS_HD Wide standard_error() const noexcept {
-        return each_component(squares, [=, *this](double x) {
-            return count > 1 ? std::sqrt(x / (count * (count - 1))) : std::numeric_limits<double>::quiet_NaN();
+        const bool known = count > 1;
+        return each_component(squares, [=, divisor = count * (count - 1)](double x) {
+            const double error = real::sqrt(real::quotient_where(known, x, divisor));
+            return known ? error : std::numeric_limits<double>::quiet_NaN();
         });
     }
 };

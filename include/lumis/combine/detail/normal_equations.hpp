@@ -4,6 +4,7 @@
 #pragma once
 
 #include "lumis/core/platform.hpp"
+#include "lumis/core/real.hpp"
 
 #include <array>
 #include <cstddef>
@@ -83,7 +84,7 @@ struct NormalEquations {
                 d -= l[i][k] * l_d[i][k];
                 x[i] -= x[k] * l[i][k];
             }
-            inverse_d[i] = d > lost_digits * a(i, i) ? 1 / d : 0;
+            inverse_d[i] = real::quotient_where(d > lost_digits * a(i, i), 1.0, d);
         }
         for (std::size_t i = K; i-- > 0;) {
             x[i] *= inverse_d[i];
