@@ -27,7 +27,8 @@ struct PilotMoments {
     // A pilot sample where the integrand is f. The heuristic weighs numbers T.
     template <std::floating_point T, class H>
     LUMIS_HD void add(const H& heuristic, double f, const std::array<double, S>& densities, double p) noexcept {
-        for (std::size_t t = 0; t < S; ++t) masses[t] += densities[t] / p;
+        const double inverse_p = 1 / p;
+        for (std::size_t t = 0; t < S; ++t) masses[t] += densities[t] * inverse_p;
         if (f == 0) return;
         constexpr Splits<S> all = make_splits<S>();
         for (std::size_t k = 0; k < splits; ++k) {
@@ -49,8 +50,8 @@ struct PilotMoments {
                     first = effective[t] > 0 ? f * weight<T>(heuristic, t, effective, inverse) : 0;
                     second = effective[t] > 0 ? first * first / densities[t] : 0;
                 }
-                firsts[t][k] += first / p;
-                seconds[t][k] += second / p;
+                firsts[t][k] += first * inverse_p;
+                seconds[t][k] += second * inverse_p;
             }
         }
     }
