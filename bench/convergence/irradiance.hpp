@@ -1,10 +1,12 @@
 // The irradiance of a light of radiance 1 on a plane through the origin, +z its normal: closed forms, and the problem of
-// estimating it from cosine-distributed directions and from the light's points.
+// estimating it from cosine-distributed directions, from the light's points, and by what better techniques there are for the
+// light's shape.
 #pragma once
 
 #include "problem.hpp"
 #include <lumis/directions/cosine_hemisphere.hpp>
 #include <lumis/lights/area_light.hpp>
+#include <lumis/lights/area_light_by_cosine.hpp>
 #include <lumis/lights/area_light_by_solid_angle.hpp>
 
 #include <glm/geometric.hpp>
@@ -41,6 +43,10 @@ template <class Shape>
     if constexpr (!std::same_as<Shape, lumis::Disk<double>>) {  // which has no such sampling
         const lumis::AreaLight<Shape, lumis::BySolidAngle> by_solid_angle{shape, origin};
         problem.alone(cosine_of_light, Technique{"light by solid angle", by_solid_angle});
+    }
+    if constexpr (std::same_as<Shape, lumis::Triangle<double>> || std::same_as<Shape, lumis::Parallelogram<double>>) {
+        const lumis::AreaLight<Shape, lumis::ByCosine> by_cosine{shape, origin, glm::dvec3{0, 0, 1}};
+        problem.alone(cosine_of_light, Technique{"light by cosine", by_cosine});
     }
     return problem;
 }

@@ -1,8 +1,10 @@
-// The irradiance of each shape of light at three distances: nearer than its size, as near, and far.
+// The irradiance of each shape of light at three distances: nearer than its size, as near, and far; and of rectangles that stand
+// on the receiver's plane, or through it.
 #include "irradiance.hpp"
 
 #include <array>
 #include <cstdio>
+#include <string>
 #include <utility>
 
 namespace {
@@ -57,5 +59,35 @@ struct Shape {
 };
 const Shape triangles{"triangle", triangle}, rectangles{"rectangle", rectangle}, disks{"disk", disk},
     spheres{"sphere", sphere};
+
+// Rectangles that stand on the plane, or through it, or lie aside: edge_u is level. What is below the plane is cut off for the
+// answer.
+struct Aside {
+    Aside(const std::string& name, const char* title, const char* description, const dvec3& corner, const dvec3& edge_u,
+          const dvec3& edge_v) {
+        const dvec3 start = corner + (corner.z < 0 ? -corner.z / edge_v.z : 0.0) * edge_v, end = corner + edge_v;
+        const std::array corners{start, start + edge_u, end + edge_u, end};
+        Registered{"irradiance-" + name, [=] {
+                       return irradiance("irradiance", title, description, lumis::Parallelogram{corner, edge_u, edge_v},
+                                         irradiance_of_polygon(corners));
+                   }};
+    }
+};
+const Aside wall{"wall",          "Square, upright", "A 2 x 2 square that stands on the plane, 1 away.",
+                 dvec3{1, -1, 0}, dvec3{0, 2, 0},    dvec3{0, 0, 2}};
+const Aside wall_close_by{"wall-close-by",
+                          "Square, upright and close by",
+                          "A 2 x 2 square that stands on the plane, 0.1 away.",
+                          dvec3{0.1, -1, 0},
+                          dvec3{0, 2, 0},
+                          dvec3{0, 0, 2}};
+const Aside wall_through{"wall-through-the-plane",
+                         "Square, half below the horizon",
+                         "A 2 x 2 square, 1 away, that stands half above the plane and half below.",
+                         dvec3{1, -1, -1},
+                         dvec3{0, 2, 0},
+                         dvec3{0, 0, 2}};
+const Aside strip{"strip",           "Strip, aside", "A 4 x 2 rectangle that lies 0.5 above the plane, 2 to 6 away.",
+                  dvec3{2, -1, 0.5}, dvec3{4, 0, 0}, dvec3{0, 2, 0}};
 
 }  // namespace
