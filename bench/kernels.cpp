@@ -12,12 +12,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <type_traits>
 
 namespace {
 
 // Lights from points near the origin; GGX from directions around wo.
+// Textbook: void if it has no counterpart.
 template <class T, class Strategy, class Textbook, class Of>
 void add_once(const std::string& name, Of of) {
     const auto uniforms = lazily([] { return Uniforms<T>{few}; });
@@ -39,7 +41,8 @@ void add_once(const std::string& name, Of of) {
     };
     const auto origin = ready(glm::vec<3, T>{});
     add_form<T>("once/" + name + "/single", origin, uniforms, make_and_sample(std::type_identity<Strategy>{}));
-    add_form<T>("once/" + name + "/textbook", origin, uniforms, make_and_sample(std::type_identity<Textbook>{}));
+    if constexpr (!std::is_void_v<Textbook>)
+        add_form<T>("once/" + name + "/textbook", origin, uniforms, make_and_sample(std::type_identity<Textbook>{}));
 }
 
 // The same of points in lanes, each of which draws its sample.
@@ -109,6 +112,29 @@ void add_light(const std::string& name, const Shape& shape) {
                         return Textbook{shape, origin};
                     }));
     add_once<T, Light, Textbook>(name, [shape]<class S>(const glm::vec<3, T>& from) { return S{shape, from}; });
+}
+
+// A light that is told more of the receiver than where it is, or of the light than its shape: of(point) makes it.
+template <class T, class Of>
+void add_light_of(const std::string& name, Of of) {
+    const glm::vec<3, T> origin = Scene<T>{}.origin;
+    add_strategy<T>(name, lazily([=] { return of(origin); }), nullptr);
+    add_once<T, decltype(of(origin)), void>(name, [of]<class S>(const glm::vec<3, T>& from) { return of(from); });
+}
+
+template <class T, class Shape>
+void add_light_by_cosine(const std::string& name, const Shape& shape) {
+    add_light_of<T>(name, [shape](const glm::vec<3, T>& from) {
+        return lumis::AreaLight<Shape, lumis::ByCosine>{shape, from, glm::vec<3, T>{T(0.6), T(0), T(0.8)}};
+    });
+}
+
+template <class T>
+void add_image_light() {
+    const auto table = std::make_shared<lumis::PiecewiseConstant2D<T>>(256, 128, sky<T>(256, 128));
+    add_light_of<T>("image_light", [table, shape = Scene<T>{}.rectangle](const glm::vec<3, T>& from) {
+        return lumis::ImageLight{shape, *table, from};
+    });
 }
 
 // A sample, its density and its weight, reflectance times cosine over density: all that a path needs.
@@ -270,6 +296,7 @@ void add_all() {
                 lazily([] { return ::Uniforms<T>{few}; }),
                 [](const auto& s, const auto& u, auto pass, auto& out) { sample_each(s, u, pass, out); });
     add_strategy<T>("uniform_hemisphere", ready(UniformHemisphere<T>{}), ready(textbook::UniformHemisphere<T>{}));
+    add_strategy<T>("uniform_cone", ready(UniformCone{T(0.3)}), ready(textbook::UniformCone<T>{std::cos(T(0.3))}));
     add_strategy<T>("uniform_sphere", ready(UniformSphere<T>{}), ready(textbook::UniformSphere<T>{}));
     add_ggx_reflection<T>();
     add_strategy<T>("ggx_bounded_reflection", ready(GgxBoundedReflection<T>{scene.wo, scene.alpha}), none);
@@ -285,11 +312,15 @@ void add_all() {
                                                                                           scene.triangle);
     add_light<T, AreaLight<Parallelogram<T>, BySolidAngle>, textbook::RectangleBySolidAngle<T>>(
         "rectangle_by_solid_angle", scene.rectangle);
+    add_light_by_cosine<T>("triangle_by_cosine", scene.triangle);
+    add_light_by_cosine<T>("rectangle_by_cosine", scene.rectangle);
     add_light_in_lanes<T, ByArea>("triangle_by_area", scene.triangle);
     add_light_in_lanes<T, ByArea>("rectangle_by_area", scene.rectangle);
     add_light_in_lanes<T, ByArea>("disk_by_area", scene.disk);
     add_light_in_lanes<T, BySolidAngle>("sphere_by_solid_angle", scene.sphere);
     add_textured_lamp<T>();
+    add_image_light<T>();
+    add_strategy<T>("sun", ready(Sun{glm::vec<3, T>{T(0.6), T(0), T(0.8)}, T(0.00465)}), none);
     add_strategy<T>("sphere_by_area", ready(AreaLight<Sphere<T>>{scene.sphere, scene.origin}), none);
 }
 

@@ -73,4 +73,18 @@ struct UniformSphere {
     static constexpr T density = std::numbers::inv_pi_v<T> / 4;
 };
 
+// Section A.5.4.
+template <std::floating_point T>
+struct UniformCone {
+    T cos_theta_max;
+
+    [[nodiscard]] Sample<Direction<T>, T> sample(glm::vec<2, T> u) const noexcept {
+        const T z = (1 - u.x) + u.x * cos_theta_max;
+        return {from_spherical(z, std::sqrt(std::max(T(0), 1 - z * z)), 2 * std::numbers::pi_v<T> * u.y), density()};
+    }
+    [[nodiscard]] T pdf(const Direction<T>& w) const noexcept { return w.z >= cos_theta_max ? density() : T(0); }
+
+    [[nodiscard]] T density() const noexcept { return 1 / (2 * std::numbers::pi_v<T> * (1 - cos_theta_max)); }
+};
+
 }  // namespace textbook

@@ -64,6 +64,7 @@ TEST_CASE("the textbook's directions are those of Lumis", "[textbook]") {
     check_same(textbook::CosineHemisphere<float>{}, lumis::CosineHemisphere<float>{}, {1e-3, 5e-2});
     check_same(textbook::UniformHemisphere<float>{}, lumis::UniformHemisphere<float>{});
     check_same(textbook::UniformSphere<float>{}, lumis::UniformSphere<float>{});
+    check_same(textbook::UniformCone<float>{std::cos(0.3f)}, lumis::UniformCone{0.3f});
 }
 
 TEST_CASE("the textbook's concentric map has the cosine's moments", "[textbook]") {
