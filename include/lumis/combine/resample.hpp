@@ -81,9 +81,9 @@ template <class Several, class First, class... Rest>
 struct CommonSample : std::conditional<(std::same_as<First, Rest> && ...), First, Several> {};
 
 template <class Common, class Drawn>
-[[nodiscard]] LUMIS_INLINE inline Common as_common(const Drawn& drawn) noexcept {
+[[nodiscard]] LUMIS_INLINE inline decltype(auto) as_common(const Drawn& drawn) noexcept {
     if constexpr (std::same_as<Common, Drawn>) {
-        return drawn;
+        return (drawn);
     } else {
         Common result{};
         result.value = drawn.value;
@@ -309,8 +309,8 @@ class Resampling : public Combination<H, S...> {
         MaskOf<R> is_drawn = own > 0;
         if constexpr (!std::floating_point<R>) is_drawn = is_drawn && selected;
         if (!real::any(is_drawn)) return;
-        const auto whole = detail::as_common<std::remove_cvref_t<decltype(kept.item().sample)>>(
-            this->template seen<I, only_points, R>(sample));
+        decltype(auto) told = this->template seen<I, only_points, R>(sample);
+        decltype(auto) whole = detail::as_common<std::remove_cvref_t<decltype(kept.item().sample)>>(told);
         const R target = real::select(is_drawn, target_at<I, R>(whole, is_drawn), T(0));
         LUMIS_ASSERT(real::all(target >= 0));
         const MaskOf<R> wanted = target > 0;

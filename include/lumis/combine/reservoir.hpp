@@ -2,8 +2,8 @@
 // purpose unequal probability sampling plan"). The stream may be of any length, the memory is that of one item.
 #pragma once
 
-#include "lumis/combine/detail/compensated_sum.hpp"
 #include "lumis/combine/detail/select_item.hpp"
+#include "lumis/combine/detail/sum_of_weights.hpp"
 #include "lumis/combine/heuristics.hpp"
 #include "lumis/core/assert.hpp"
 #include "lumis/core/platform.hpp"
@@ -11,7 +11,9 @@
 
 #include <concepts>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace lumis::LUMIS_ISA {
 
@@ -36,6 +38,8 @@ struct WeightOf<Item> : std::type_identity<std::remove_cvref_t<decltype(std::dec
 template <class Item, Real R = typename detail::WeightOf<Item>::type>
 class Reservoir {
     using Scalar = scalar_of<R>;
+    using Sum = detail::SumOfWeights<R>;
+    using Wide = typename Sum::Value;  // a selection is decided in the precision of the sum
 
     // A uniform decides by its own digits: with weights in float it may still be a double.
     template <class U>
@@ -43,7 +47,8 @@ class Reservoir {
 
   public:
     // Keeps the item, in place of the one before, if u in [0, 1) lies below its share of all weights; 1 is tolerated. Returns
-    // whether it does. u is a fresh uniform; the first item of a positive weight is kept whatever u is.
+    // whether it does. u is a fresh uniform; the first item of a positive weight is kept whatever u is (but for double, if it is less
+    // than 2^-1021).
     //
     // A uniform of float has steps of 2^-24, which favours an item over those before it by half a step, on average. For more than
     // 10^5 items give a double.
@@ -66,25 +71,25 @@ class Reservoir {
 
     // As if all items of `other` had been added here, at the cost of one.
     template <class U>
-        requires decides<U> LUMIS_HD MaskOf<R> merge(const Reservoir& other, const U& u)
+        requires decides<U> LUMIS_INLINE MaskOf<R> merge(const Reservoir& other, const U& u)
     noexcept {
         U unused = u;
         count_ += other.count_;
-        R weight = accepted(other.total_weight());
-        if (real::all(weight == other.total_weight())) {
+        const R weight = accepted(other.total_weight());
+        if (real::all(weight == other.total_weight())) [[likely]] {
             total_.add(other.total_);
         } else {
-            total_.add(weight);
+            total_.add(Wide(weight));
         }
-        return select<false>(other.item_, weight, other.weight_, unused);
+        return select<false>(other.item_, Wide(weight), other.weight_, unused);
     }
 
     // The item that is kept, and its weight; a weight of 0: there is none.
     [[nodiscard]] LUMIS_HD constexpr const Item& item() const noexcept LUMIS_LIFETIME_BOUND { return item_; }
     [[nodiscard]] LUMIS_HD constexpr const R& weight() const noexcept LUMIS_LIFETIME_BOUND { return weight_; }
 
-    // The sum of all weights. Its error is that of one rounding, however many they are.
-    [[nodiscard]] LUMIS_HD constexpr R total_weight() const noexcept { return total_.value(); }
+    // The sum of all weights, as of numbers in double: 10^8 small ones lose no digit of a float.
+    [[nodiscard]] LUMIS_HD constexpr R total_weight() const noexcept { return static_cast<R>(total_.value()); }
 
     // How many items were added, those of weight 0 too.
     [[nodiscard]] LUMIS_HD constexpr std::uint64_t count() const noexcept { return count_; }
@@ -92,13 +97,13 @@ class Reservoir {
     // total_weight() / weight(), over the probability with which the item was kept: exactly 1 if no other item has a weight, 0
     // if there is none.
     [[nodiscard]] LUMIS_HD constexpr R inverse_probability() const noexcept {
-        return real::quotient_where(weight_ > 0, total_weight(), weight_);
+        return static_cast<R>(real::quotient_where(weight_ > 0, total_.value(), Wide(weight_)));
     }
 
     // What an integrand at the item is multiplied by, where the weight of each item x was m(x) target(x) / pdf(x) with MIS
     // weights m that sum to 1 over the candidates: total_weight() / target. 0 if no item was kept, or the target is 0.
     [[nodiscard]] LUMIS_HD constexpr R contribution_weight(std::type_identity_t<R> target) const noexcept {
-        return real::quotient_where(weight_ > 0 && target > 0, total_weight(), target);
+        return static_cast<R>(real::quotient_where(weight_ > 0 && target > 0, total_.value(), Wide(target)));
     }
 
   private:
@@ -106,43 +111,38 @@ class Reservoir {
     LUMIS_INLINE MaskOf<R> add(const Item& item, const R& any_weight, U& u, std::uint64_t stands_for) noexcept {
         count_ += stands_for;
         const R weight = accepted(any_weight);
-        total_.add(weight);
-        return select<reuse>(item, weight, weight, u);
+        total_.add(Wide(weight));
+        return select<reuse>(item, Wide(weight), weight, u);
     }
 
     // The weight if it is one, else 0.
     [[nodiscard]] LUMIS_INLINE R accepted(const R& weight) const noexcept {
-        const MaskOf<R> good = weight >= 0 && total_weight() + weight <= detail::largest_sum<Scalar>;
+        const MaskOf<R> good = weight >= 0 && total_.value() + Wide(weight) <= Wide(detail::largest_sum<Scalar>);
         LUMIS_ASSERT(real::all(good));
         return real::select(good, weight, Scalar(0));
     }
 
-    // Keeps the item of weight `own` with the probability that `weight` has of the total, which includes it.
+    // Keeps the item of weight `own` with the probability that `part` has of the total, which includes it.
     template <bool reuse, class U>
-    LUMIS_INLINE MaskOf<R> select(const Item& item, const R& weight, const R& own, U& u) noexcept {
-        const U part = static_cast<U>(weight), all = static_cast<U>(total_weight());
-        const auto drawable = part > 0;
-        const U share = real::quotient_where(drawable, part, all);
-        // Beside a weight that is all of the rounded total, no other is kept, not even by u = 1.
-        const auto certain = drawable && part >= all;
-        const auto selected = certain || u < share;
+    LUMIS_INLINE MaskOf<R> select(const Item& item, const Wide& part, const R& own, U& u) noexcept {
+        // Less than 1: what is all of the total is kept for certain.
+        constexpr auto below_one = 1 - std::numeric_limits<scalar_of<Wide>>::epsilon() / 2;
+        const Wide all = total_.value(), chance = real::lesser(static_cast<Wide>(u), Wide(below_one));
+        const MaskOf<R> selected = chance * all < part;
         if constexpr (reuse) {
-            const U taken = real::divide(u, real::divisor_where(selected && !certain, share));
-            const U left = real::divide(U(u - share), real::divisor_where(!selected, U(1 - share)));
-            u = real::select(selected, taken, left);
+            const Wide share = real::divide(part, real::divisor_where(all > 0, all));
+            const Wide taken = real::divide(chance, real::divisor_where(selected, share));
+            const Wide left = real::divide(Wide(chance - share), real::divisor_where(!selected, Wide(1 - share)));
+            u = static_cast<U>(real::select(selected, taken, left));
         }
         weight_ = real::select(selected, own, weight_);
-        if constexpr (std::floating_point<R>) {
-            if (selected) item_ = item;
-        } else {
-            item_ = detail::select_item(selected, item, item_);
-        }
+        if (real::any(selected)) item_ = detail::select_item(selected, item, item_);
         return selected;
     }
 
     Item item_{};
     R weight_ = Scalar(0);
-    detail::CompensatedSum<R> total_;
+    Sum total_;
     std::uint64_t count_ = 0;
 };
 
