@@ -3,6 +3,8 @@
 #include "assertions.hpp"
 #include "exceptions.hpp"
 #include "strategies.hpp"
+#include <lumis/microfacets/ggx_dielectric.hpp>
+#include <lumis/microfacets/smooth_dielectric.hpp>
 #include <lumis/testing/every_heuristic.hpp>
 
 #include <array>
@@ -157,6 +159,18 @@ TEMPLATE_TEST_CASE("GGX of nothing to draw raises no floating-point exception", 
             check_making_raises_nothing([&] { return lumis::GgxBoundedReflection<T>{o, a}; });
             check_making_raises_nothing([&] { return lumis::Reflected{o, lumis::GgxNdf<T>{a}}; });
             check_making_raises_nothing([&] { return lumis::PerfectReflection<T>{o}; });
+            for (const T eta : {T(1.5), T(1 / 1.5), T(1), T(0), T(1e4), T(1e-4)}) {
+                check_making_raises_nothing([&] { return lumis::GgxDielectric<T>{o, a, unknown(eta)}; });
+                check_making_raises_nothing([&] { return lumis::SmoothDielectric<T>{o, unknown(eta)}; });
+                const lumis::GgxDielectric<T> glass{o, a, unknown(eta)};
+                CHECK(exceptions_raised_by([&] {
+                          for (const V& wi : {-o, V(-o.x, -o.y, o.z), V(o.x, o.y, -o.z)}) {
+                              keep(glass.pdf(wi));
+                              keep(glass.bsdf(wi));
+                              keep(glass.weight(wi));
+                          }
+                      }) == 0);
+            }
             const lumis::GgxReflection<T> reflection{o, a};
             const lumis::Reflected by_ndf{o, lumis::GgxNdf<T>{a}};
             // The half vector vanishes, and the textbook's terms divide by the cosine.

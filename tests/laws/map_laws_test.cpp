@@ -2,6 +2,7 @@
 // carry it away.
 #include "catch.hpp"
 #include "strategies.hpp"
+#include <lumis/microfacets/smooth_dielectric.hpp>
 #include <lumis/testing/laws.hpp>
 
 #include <concepts>
@@ -99,6 +100,8 @@ TEST_CASE("a delta strategy has no density", "[laws]") {
         for (const V& wo : {V(T(0.48), T(0.64), T(0.6)), V(0, 0, 1), V(1, 0, 0), V(0, 0, -1)}) {
             check(lumis::PerfectReflection<T>{wo});
             check(lumis::in_frame(lumis::Frame<T>{V(T(0.6), T(0), T(-0.8))}, lumis::PerfectReflection<T>{wo}));
+            check(lumis::SmoothDielectric<T>{wo, 1.5});
+            check(lumis::SmoothDielectric<T>{wo, 1 / 2.4});
             check(lumis::DirectionalLight<T>{wo});
             check(lumis::PointLight{wo, V(T(0.1), T(2), T(-1))});
             check(lumis::PointLight{wo, wo});

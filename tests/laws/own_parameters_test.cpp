@@ -51,17 +51,17 @@ class Comparison {
         }
         const CaughtAssertions caught;
         const auto lanes = Made::make(joined<L>(numbers));
-        glm::vec<2, L> u;
+        lumis::UniformsOf<decltype(lanes)> u;
         Direction<L> anywhere;
         for (std::size_t i = 0; i < N; ++i) {
-            u.x.set(i, uniform()), u.y.set(i, uniform());
+            for (int k = 0; k < u.length(); ++k) u[k].set(i, uniform());
             const auto w = subjects::random_unit<T>(engine_);
             anywhere.x.set(i, w.x), anywhere.y.set(i, w.y), anywhere.z.set(i, w.z);
         }
         const auto drawn = lanes.sample(u);
         const auto pdf_drawn = lanes.pdf(drawn.value), pdf_anywhere = lanes.pdf(anywhere);
         for (std::size_t i = 0; i < N; ++i) {
-            INFO("lane " << i << " made of " << text(numbers[i]) << "; u = " << u.x[i] << ", " << u.y[i]);
+            INFO("lane " << i << " made of " << text(numbers[i]) << "; u.x = " << u.x[i] << ", u.y = " << u.y[i]);
             const auto single = Made::make(numbers[i]);
             const auto one = single.sample(lane_of(u, i));
             drawn_ += one.pdf > 0;

@@ -5,6 +5,8 @@
 #include "one_dimensional.hpp"
 #include "z_test.hpp"
 #include <lumis/lumis.hpp>
+#include <lumis/microfacets/ggx_dielectric.hpp>
+#include <lumis/microfacets/smooth_dielectric.hpp>
 #include <lumis/testing/agreement.hpp>
 #include <lumis/testing/integration.hpp>
 
@@ -113,6 +115,7 @@ TEMPLATE_TEST_CASE("directions that are not unit vectors", "[wrong_arguments]", 
         check_consistent(name + ", normals", lumis::GgxVndf<T>{off, alpha});
         check_consistent(name + ", reflection", lumis::GgxReflection<T>{off, alpha});
         check_consistent(name + ", bounded", lumis::GgxBoundedReflection<T>{off, alpha});
+        check_consistent(name + ", rough glass", lumis::GgxDielectric<T>{off, alpha, T(1.5)});
         check_consistent(name + ", mirrored", lumis::Reflected{off, lumis::CosineHemisphere<T>{}});
         const T tolerance = 4 * std::numeric_limits<T>::epsilon();
         CHECK(std::abs(glm::length(lumis::PerfectReflection<T>{off}.sample({}).value) - 1) <= tolerance);
@@ -145,6 +148,11 @@ TEMPLATE_TEST_CASE("NaN parameters of every strategy", "[wrong_arguments]", floa
     asserts("bounded reflection of a roughness", [&] { return GgxBoundedReflection<T>{up, bad_alpha}; });
     asserts("reflected normals", [&] { return Reflected{bad, CosineHemisphere<T>{}}; });
     asserts("mirror", [&] { return PerfectReflection<T>{bad}; });
+    asserts("rough glass", [&] { return GgxDielectric<T>{bad, alpha, T(1.5)}; });
+    asserts("rough glass of a roughness", [&] { return GgxDielectric<T>{up, bad_alpha, T(1.5)}; });
+    asserts("rough glass of an index", [&] { return GgxDielectric<T>{up, alpha, nan}; });
+    asserts("smooth glass", [&] { return SmoothDielectric<T>{bad, 1.5}; });
+    asserts("smooth glass of an index", [&] { return SmoothDielectric<T>{up, nan}; });
     asserts("sun", [&] { return DirectionalLight<T>{bad}; });
     asserts("lamp", [&] { return PointLight<T>{bad, origin}; });
     asserts("lamp from a point", [&] { return PointLight<T>{up, bad}; });

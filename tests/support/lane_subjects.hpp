@@ -3,6 +3,8 @@
 #pragma once
 
 #include <lumis/lumis.hpp>
+#include <lumis/microfacets/ggx_dielectric.hpp>
+#include <lumis/microfacets/smooth_dielectric.hpp>
 
 #include <glm/geometric.hpp>
 
@@ -194,6 +196,46 @@ struct MakePerfectReflection {
     }
 };
 
+// wo on either side of a dielectric, the roughness along x and y, and the index of refraction.
+template <class MakeOf>
+struct OfBoundary {
+    static constexpr std::size_t parameters = 6;
+    template <class R>
+    static auto make(const std::array<R, 6>& p) {
+        return MakeOf{}(lumis::Direction<R>{p[0], p[1], p[2]}, glm::vec<2, R>{p[3], p[4]}, p[5]);
+    }
+    template <class T>
+    static std::array<T, 6> random(std::mt19937& engine) {
+        const auto wo = random_unit<T>(engine);
+        std::uniform_real_distribution<double> logarithm{-4, 0.5}, of_index{-1, 1};
+        const T x = T(std::exp(logarithm(engine))), y = T(std::exp(logarithm(engine)));
+        return {wo.x, wo.y, wo.z, x, y, T(std::exp(of_index(engine)))};
+    }
+    template <class T>
+    static std::vector<std::array<T, 6>> degenerate() {
+        const T nan = not_a_number<T>, wide = T(0.3), glass = T(1.5);
+        return {{T(0.6), 0, T(-0.8), wide, wide, 1},  {T(0.6), 0, T(-0.8), wide, wide, nan},
+                {T(0.6), 0, T(0.8), wide, wide, -1},  {T(0.6), 0, T(0.8), wide, wide, 20'000},
+                {T(0.6), 0, T(0.8), wide, -1, glass}, {T(0.6), 0, T(0.8), nan, wide, glass},
+                {1, 0, 0, wide, wide, glass},         {0, 0, 0, wide, wide, glass},
+                {nan, 0, 1, wide, wide, glass},       {0, T(1.2), T(-1.6), wide, 1, glass},
+                {0, 0, -1, wide, wide, glass},        {1, 0, T(-1e-6), wide, T(0.01), glass}};
+    }
+};
+
+struct MakeGgxDielectric {
+    template <class R>
+    auto operator()(const lumis::Direction<R>& wo, const glm::vec<2, R>& alpha, const R& eta) const {
+        return lumis::GgxDielectric<R>{wo, alpha, eta};
+    }
+};
+struct MakeSmoothDielectric {
+    template <class R>
+    auto operator()(const lumis::Direction<R>& wo, const glm::vec<2, R>&, const R& eta) const {
+        return lumis::SmoothDielectric<R>{wo, eta};
+    }
+};
+
 // A light: the numbers of its shape, and the reference point. Coordinates are near 1; shapes are met in front of, behind and
 // inside them.
 template <class MakeOf, std::size_t K>
@@ -298,7 +340,8 @@ using WithOwnParameters =
                OfDirectionAndRoughness<MakeGgxNdf>, OfDirectionAndRoughness<MakeGgxVndf>,
                OfDirectionAndRoughness<MakeGgxReflection>, OfDirectionAndRoughness<MakeGgxBoundedReflection>,
                OfDirectionAndRoughness<MakeReflectedNdf>, OfDirectionAndRoughness<MakePerfectReflection>,
-               Light<MakeTriangle, 12>, Light<MakeParallelogram, 12>, Light<MakeDisk, 10>,
-               Light<MakeSphere<lumis::ByArea>, 7>, Light<MakeSphere<lumis::BySolidAngle>, 7>>;
+               OfBoundary<MakeGgxDielectric>, OfBoundary<MakeSmoothDielectric>, Light<MakeTriangle, 12>,
+               Light<MakeParallelogram, 12>, Light<MakeDisk, 10>, Light<MakeSphere<lumis::ByArea>, 7>,
+               Light<MakeSphere<lumis::BySolidAngle>, 7>>;
 
 }  // namespace subjects

@@ -4,6 +4,7 @@
 
 #include "combined_subjects.hpp"
 #include "cosine_subjects.hpp"
+#include "dielectric_subjects.hpp"
 #include "light_subjects.hpp"
 #include "scattering_subjects.hpp"
 #include "solid_angle_subjects.hpp"
@@ -22,6 +23,7 @@ using Strategies = std::tuple<subjects::CosineHemisphere,           //
                               subjects::ReflectedCosine,            //
                               subjects::GgxReflectionInFrame,       //
                               subjects::CoatedDiffuse,              //
+                              subjects::GgxDielectric,              //
                               subjects::TriangleByArea,             //
                               subjects::ParallelogramByArea,        //
                               subjects::DiskByArea,                 //
