@@ -110,6 +110,9 @@ def whole(folder):
     steps = results["problems"][0]
     steps["integrators"] = [estimator(name, seconds) for name, seconds in (("balance", 1e-6), ("power", 1.3e-3))]
     steps["integrators"] += [estimator(f"balance 1:{i}", 0.01 * i, headline=False) for i in range(2, 30)]
+    steps["integrators"] += [
+        estimator("sobol", 1e-10, model="sobol", whole_runs=True, spread=[0.5, 0.7, 0.9, 1.1, 1.9], slope=-1.3),
+        estimator("optimal", 4e-6, model="optimal", whole_runs=True, spread=[0.01, 0.02, 0.05, 0.1, 2.83])]
     results["problems"] += [scene(folder), spoilt(), close()]
     results["error_scale"] = {"low": 1e-3, "high": 10}
     results["build"] = {"version": "0", "type": "Release", "assertions": False}

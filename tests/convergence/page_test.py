@@ -77,29 +77,38 @@ def problems_of(page, chromium):
 def misstatements(page, chromium):
     """What the page of made-up results says otherwise than they do."""
     open_page(page, chromium)
-    scene, spoilt, close, overview, first, spoilt_text, totals = chromium.execute_script("""
+    scene, spoilt, close, overview, first, spoilt_text, totals, spreads = chromium.execute_script("""
         const table = id => [...document.querySelector(`#${id} .table tbody`).rows];
         const column = (id, i) => table(id).map(row => row.cells[i].dataset.value);
         const row = title => [...document.querySelector(".whole tbody").rows].find(row => row.innerText.includes(title));
         const cells = title => [...row(title).cells].map(cell => cell.innerText.split("\\n")[0]);
         document.querySelectorAll("details").forEach(details => details.open = true);
         return [[column("made-up", 0), column("made-up", 1)], [column("spoilt", 0), column("spoilt", 1)],
-                [column("close", 0), cells("Both are enough")], [cells("made-up"), cells("Spoilt")],
+                [column("close", 0), cells("Both are enough")], [cells("made-up"), cells("Spoilt"), cells("Two steps")],
                 table("made-up")[0].innerText, document.querySelector("#spoilt").innerText,
-                [...document.querySelector(".whole tfoot").rows].map(row => [...row.cells].map(cell => cell.innerText))]""")
+                [...document.querySelector(".whole tfoot").rows].map(row => [...row.cells].map(cell => cell.innerText)),
+                [...document.querySelectorAll("#two-steps .spread")].map(cell => [
+                    cell.dataset.value, +cell.querySelector("rect").getAttribute("x")])]""")
     close_text = chromium.find_element("id", "close").text
+    ahead = chromium.find_element("id", "two-steps").text
     expected = {
         "ranking": (scene[0], ["power", "balance", "one-sample", "bsdf", "average", "light"]),
         "verdicts": (scene[1], ["converges"] * 3 + ["heavy tails", "converges", "plateau"]),
-        "overview": (overview[0][1:7], ["1.1", "1.0", "2.5", "150", "45!", "never"]),  # a time of 0.02 s is the best
+        # A time of 0.02 s is the best. Nothing learns, and there are no other points.
+        "overview": (overview[0][1:9], ["1.1", "1.0", "2.5", "150", "–", "–", "45!", "never"]),
+        # 1 µs is the best: other points are not, and what is ahead of it is below 1.
+        "what is beyond": (overview[2][1:8], ["1.0", "1,300", "–", "–", "4.0", "0.00010", "–"]),
+        "what is ahead": ("Ahead of it: sobol, 10,000 times as efficient at 64 estimates." in ahead, True),
+        # Half of the way to 1/4 is a quarter of the line; beyond 4 times there is no more of it.
+        "spreads": (spreads, [["1.9", 29.7], ["2.83", 0]]),
         "first row": ([text in first for text in ("20\u00a0ms", "200\u00a0µs", "20 samples", "one sample", "✓ converges")], [True] * 5),
         "ranking of what is spoilt": (spoilt[0], ["sharp", "power", "blind", "bsdf", "balance"]),
         "its verdicts": (spoilt[1], ["exact", "converges", "no hits", "not finite", "not finite"]),
-        "its row": (overview[1][1:8], ["not finite", "1.0", "–", "–", "exact", "not finite", "–"]),
+        "its row": (overview[1][1:10], ["not finite", "1.0", "–", "–", "–", "–", "exact", "not finite", "–"]),
         "its count": ("7 of 1,000 samples" in spoilt_text, True),
         # Already one sample is below 1 %: the time to it says nothing, and the efficiency all.
         "ranking by efficiency": (close[0], ["average", "light by solid angle", "light", "power", "balance"]),
-        "its factors": ([close[1][i] for i in (1, 2, 4, 5, 7)], ["8.3", "3.9", "0.039!", "1.0", "0.24"]),
+        "its factors": ([close[1][i] for i in (1, 2, 4, 7, 9)], ["8.3", "3.9", "0.039!", "1.0", "0.24"]),
         "its words": ([text in close_text for text in ("one sample", "4.1 times as efficient")], [True] * 2),
         "what is left of the mean": (totals[0][1].startswith("2.1") and "never for 1" in totals[0][1], True)}
     header = chromium.find_element("css selector", "#made-up .table th button")
@@ -141,6 +150,11 @@ def with_image_elsewhere(results, folder):
     return results
 
 
+def with_half_a_spread(results, folder):
+    results["problems"][0]["integrators"][0]["spread"] = [0.5, 1]
+    return results
+
+
 def with_unknown_verdict(results, folder):
     results["problems"][0]["integrators"][0]["verdict"] = "fine"
     return results
@@ -150,6 +164,7 @@ REFUSED = {  # how results are spoilt, and what has to be said about it
     "a missing time": (without_time, "problems[0].integrators[0].points[0].cpu_seconds is missing"),
     "a reference without an error": (with_unknown_reference, "problems[0].reference.relative_mse is null"),
     "an unknown verdict": (with_unknown_verdict, "the verdict 'fine' is none of exact"),
+    "half a spread": (with_half_a_spread, "a spread is of five numbers"),
     "a broken image": (with_broken_image, "power.png"),
     "an image elsewhere": (with_image_elsewhere, "'../example/index.html' is not in the folder"),
 }

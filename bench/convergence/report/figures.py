@@ -15,9 +15,9 @@ from matplotlib.markers import MarkerStyle
 
 # Each color of a figure, on light paper and on dark.
 INK, QUIET, LINE = "#1d1f23", "#5d626b", "#dcdad5"
-SERIES = {  # Okabe and Ito (2008); on dark paper lighter
+SERIES = {  # Okabe and Ito (2008), and two more; on dark paper lighter
     "#0072b2": "#4aa8e0", "#d55e00": "#ff8a3c", "#009e73": "#2fc79c", "#222222": "#e4e4e2", "#cc79a7": "#e39cc4",
-    "#c98600": "#f0b43c", "#3d9fd6": "#93d3f7"}
+    "#c98600": "#f0b43c", "#3d9fd6": "#93d3f7", "#6b57b8": "#b3a3f0", "#8a5a2c": "#cf9d6e"}
 COLORS, MARKERS = tuple(SERIES), "osD^vPX*<>ph"
 ON_DARK = {INK: "#e7e6e3", QUIET: "#a2a7b0", LINE: "#3a3e45"} | SERIES
 STYLE = {

@@ -60,6 +60,11 @@ def percent(fraction):
     return figure(fraction if fraction is None else 100 * fraction) + ("" if fraction is None else "\u00a0%")
 
 
+def spread_place(ratio):
+    """Where a ratio stands on a line 80 long, logarithmic from 1/4 to 4."""
+    return round(40 + 40 * max(-1, min(1, math.log(ratio, 4))), 1) if ratio > 0 else 0
+
+
 def count(number):
     return "–" if number is None else f"{number:,}"
 

@@ -14,7 +14,8 @@ VERDICTS = ("exact", "converges", "heavy tails", "unexplained", "plateau", "no h
 INTEGRATOR = {
     "name": TEXT, "model": TEXT, "unbiased": TRUTH, "headline": TRUTH, "verdict": TEXT, "points": [POINT],
     "to_1_percent?": EFFORT, "to_10_percent?": EFFORT, "image?": TEXT, "error_image?": TEXT, "image_spp?": NUMBER,
-    "image_seconds?": NUMBER, "fireflies?": COUNT, "not_finite?": COUNT, "evaluated?": COUNT} | dict.fromkeys((
+    "image_seconds?": NUMBER, "fireflies?": COUNT, "not_finite?": COUNT, "evaluated?": COUNT, "whole_runs?": TRUTH,
+    "spread?": [KNOWN]} | dict.fromkeys((
         "slope", "slope_standard_error", "bias_z", "efficiency", "efficiency_relative_to_power",
         "efficiency_standard_error"), NUMBER)
 AGREEMENT = {"integrators": LIST, "block": COUNT, "blocks": COUNT, "worst_z": NUMBER, "limit": NUMBER}
@@ -55,6 +56,8 @@ def load(path):
         if kind != "integral" and (kind != "render" or not problem["width"] or not problem["height"]):
             raise ValueError(f"problem {name} is neither an 'integral' nor a 'render' of known width and height")
         for integrator in problem["integrators"]:
+            if len(integrator["spread"] or range(5)) != 5:
+                raise ValueError(f"problem {name}: a spread is of five numbers")
             if integrator["verdict"] not in VERDICTS:
                 raise ValueError(f"problem {name}: the verdict '{integrator['verdict']}' is none of {', '.join(VERDICTS)}")
         images = [owner["image"] for owner in (problem["reference"], *problem["integrators"])]

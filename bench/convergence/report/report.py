@@ -32,22 +32,22 @@ def grouped(problems):
 
 
 def render(template, results, folder, results_name, image_names):
-    overview = findings.find(results)
-    totals = findings.totals(overview)
+    overview, names = findings.find(results)
+    totals = findings.totals(overview, names)
     scale = results["error_scale"]
     pictures = Pictures(folder, math.log10(scale["high"] / scale["low"]) if scale else 0, image_names)
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(Path(__file__).parent), autoescape="html" in template, trim_blocks=True,
         lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     filters = (formats.figure, formats.with_error, formats.duration, formats.percent, formats.sortable, formats.listed,
-               formats.count, formats.compact, figures.marker_points, figures.variable, findings.level, size)
+               formats.count, formats.compact, formats.spread_place, figures.marker_points, figures.variable, findings.level, size)
     environment.filters |= {function.__name__: function for function in filters}
     environment.tests["endless"] = math.isinf
     known = {name: results[name] for name in (
         "machine", "build", "arguments", "settings", "rules", "problems", "stiff", "stability")}
     return environment.get_template(template).render(
         **known, groups=grouped(results["problems"]), overview=overview, totals=totals,
-        summary=summary(overview, totals) if overview else None, combined=findings.COMBINED, levels=findings.LEVELS,
+        summary=summary(overview, totals, names) if overview else None, combined=names, levels=findings.LEVELS,
         palette=figures.palette(), pictures=pictures, plot=plot, region=REGION, results_name=results_name,
         color_bar=color_bar(scale) if scale else None, error_levels=LIMITS,
         heat_maps=heat_maps(results["stiff"]) if results["stiff"] else [])
