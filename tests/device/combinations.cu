@@ -25,7 +25,7 @@ struct Parts {
 
 // Weights of each heuristic for three densities.
 struct Heuristics {
-    static constexpr int size = 5;
+    static constexpr int size = 6;
 
     LUMIS_HD void operator()(unsigned index, float* out) const {
         device::Stream uniforms{index};
@@ -35,6 +35,7 @@ struct Heuristics {
         out[2] = mis_weight(PowerHeuristic{3.0f}, p.x, p.y, p.z);
         out[3] = mis_weight(MaximumHeuristic{}, p.x, p.y, p.z);
         out[4] = mis_weight(EqualWeights{}, p.x, p.y, p.z);
+        out[5] = mis_weight(BalanceWithFactors{2.0, variance_aware_factor(1, 2), 0.5}, p.x, p.y, p.z);
     }
 };
 
@@ -103,7 +104,7 @@ struct Paths {
 };
 
 struct Estimates {
-    static constexpr int size = 6;
+    static constexpr int size = 8;
     Parts parts;
 
     LUMIS_HD void operator()(unsigned index, float* out) const {
@@ -126,6 +127,11 @@ struct Estimates {
         out[3] = alone.estimate(of_point, uniforms);
         out[4] = with_mirror.estimate([](const glm::vec3& w, auto...) { return w.z; }, uniforms);
         out[5] = multi.weight<1>({0, 0.6f, 0.8f});
+        auto best = optimal(take(1, parts.bsdf), take(1, parts.sky), take(0, UniformSphere<float>{}));
+        for (int i = 0; i < 8; ++i) best.add(of_point, uniforms);
+        const auto round = rounds_of(choose(0.5f, parts.bsdf), choose(0.4f, parts.sky)).round(of_sample, uniforms);
+        out[6] = best.estimate();
+        out[7] = static_cast<float>(round.estimate({0.5, 0.25}));
     }
 };
 
