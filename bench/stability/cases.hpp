@@ -82,6 +82,8 @@ Measured mis_weights_of_many(Effort effort);
 template <class T>
 Measured mis_weights_policy(Effort effort);
 template <class T>
+Measured optimal_weights(Effort effort);
+template <class T>
 Measured delta_strategies(Effort effort);
 template <class T>
 Measured mixtures(Effort effort);

@@ -58,6 +58,9 @@ Measured mis_weights(Effort) {
                 // 1e-38 is subnormal in float.
                 if (measured.leaves_out<T>(first) || measured.leaves_out<T>(second * count)) continue;
                 for (const int beta : {1, 2, 3}) check_power_weights<T>(measured, {p, q}, beta);
+                const T with_factors = lumis::mis_weight(lumis::BalanceWithFactors{0.25, 3.0}, p, q);
+                const Quad expected = Quad{p} / (Quad{p} + 12 * Quad{q});
+                if (expected >= Quad{std::numeric_limits<T>::min()}) measured.compare(with_factors, expected);
                 const T largest = lumis::mis_weight(lumis::MaximumHeuristic{}, p, q);
                 measured.expect(largest == (p > q ? T(1) : p < q ? T(0) : T(0.5)));
                 const T kept = lumis::mis_weight(lumis::CutoffHeuristic{0.1}, p, q);
