@@ -297,6 +297,8 @@ void add_all() {
                 [](const auto& s, const auto& u, auto pass, auto& out) { sample_each(s, u, pass, out); });
     add_strategy<T>("uniform_hemisphere", ready(UniformHemisphere<T>{}), ready(textbook::UniformHemisphere<T>{}));
     add_strategy<T>("uniform_cone", ready(UniformCone{T(0.3)}), ready(textbook::UniformCone<T>{std::cos(T(0.3))}));
+    add_strategy<T>("henyey_greenstein", ready(HenyeyGreenstein<T>{scene.wo, T(0.7)}),
+                    ready(textbook::HenyeyGreenstein<T>{scene.wo, T(0.7)}));
     add_strategy<T>("uniform_sphere", ready(UniformSphere<T>{}), ready(textbook::UniformSphere<T>{}));
     add_ggx_reflection<T>();
     add_strategy<T>("ggx_bounded_reflection", ready(GgxBoundedReflection<T>{scene.wo, scene.alpha}), none);

@@ -18,6 +18,8 @@ Measured huge_tables(Effort effort);
 template <class T>
 Measured hemispheres(Effort effort);
 template <class T>
+Measured phase_functions(Effort effort);
+template <class T>
 Measured ggx_terms(Effort effort);
 template <class T>
 Measured ggx_normals(Effort effort);

@@ -98,6 +98,29 @@ Measured hemispheres(Effort effort) {
     return measured;
 }
 
+// A lobe may be narrower than the last place of a direction. Errors are multiplied by what is left of the terms of
+// d = (1 - |g|)^2 + |g| |wi - peak|^2 when they change by such a place.
+template <class T>
+Measured phase_functions(Effort effort) {
+    Measured measured;
+    const auto check = [&](T g) {
+        for (const auto& wo : {lumis::Direction<T>{T(0), T(0), T(-1)}, at_cosine<T>(0.6)}) {
+            const QuadVector peak = Quad{g < 0 ? 1 : -1} * quad(wo);
+            const Quad g_abs = abs(Quad{g}), a = 1 - g_abs, b = 1 + g_abs;
+            const auto d = [&](const QuadVector& wi) -> Quad { return a * a + g_abs * dot(wi - peak, wi - peak); };
+            check_drawn<T>(
+                measured, lumis::HenyeyGreenstein<T>{wo, g}, effort.of(60),
+                [&](const QuadVector& wi) -> Quad { return a * b / (4 * quad_pi * d(wi) * sqrt(d(wi))); },
+                [&](const QuadVector& wi) -> Quad { return d(wi) / (d(wi) + 3 * g_abs * length(wi - peak)); });
+        }
+    };
+    for (const T sign : {T(1), T(-1)}) {
+        sweep(1e-6, 1, 6, [&](double rest) { check(sign * static_cast<T>(1 - rest)); });
+        sweep(1e-30, 0.5, 6, [&](double g) { check(sign * static_cast<T>(g)); });
+    }
+    return measured;
+}
+
 template <class T>
 Measured ggx_terms(Effort effort) {
     Measured measured;
@@ -208,6 +231,8 @@ Measured ggx_nothing_to_draw(Effort) {
 
 template Measured hemispheres<float>(Effort);
 template Measured hemispheres<double>(Effort);
+template Measured phase_functions<float>(Effort);
+template Measured phase_functions<double>(Effort);
 template Measured ggx_terms<float>(Effort);
 template Measured ggx_terms<double>(Effort);
 template Measured ggx_normals<float>(Effort);

@@ -3,7 +3,10 @@
 // as the strategies of Lumis, so that only the arithmetic differs.
 #pragma once
 
+#include <lumis/core/frame.hpp>
 #include <lumis/core/sample.hpp>
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -85,6 +88,32 @@ struct UniformCone {
     [[nodiscard]] T pdf(const Direction<T>& w) const noexcept { return w.z >= cos_theta_max ? density() : T(0); }
 
     [[nodiscard]] T density() const noexcept { return 1 / (2 * std::numbers::pi_v<T> * (1 - cos_theta_max)); }
+};
+
+// Pharr, Jakob and Humphreys 2023, section 11.3.1: the cosine as a difference over 2 g, and evenly for small g. wo points away
+// from the point.
+template <std::floating_point T>
+struct HenyeyGreenstein {
+    Direction<T> wo;
+    T g;
+
+    [[nodiscard]] Sample<Direction<T>, T> sample(glm::vec<2, T> u) const noexcept {
+        T cos_theta = 1 - 2 * u.x;
+        if (std::abs(g) >= T(1e-3)) {
+            const T root = (1 - g * g) / (1 + g - 2 * g * u.x);
+            cos_theta = -1 / (2 * g) * (1 + g * g - root * root);
+        }
+        const T sin_theta = std::sqrt(std::max(T(0), 1 - cos_theta * cos_theta));
+        const Direction<T> local = from_spherical(cos_theta, sin_theta, 2 * std::numbers::pi_v<T> * u.y);
+        return {lumis::Frame<T>{wo}.to_world(local), density(cos_theta)};
+    }
+    [[nodiscard]] T pdf(const Direction<T>& wi) const noexcept { return density(glm::dot(wo, wi)); }
+
+    // cos_theta: between wo and wi, both away from the point.
+    [[nodiscard]] T density(T cos_theta) const noexcept {
+        const T d = 1 + g * g + 2 * g * cos_theta;
+        return std::numbers::inv_pi_v<T> / 4 * (1 - g * g) / (d * std::sqrt(std::max(T(0), d)));
+    }
 };
 
 }  // namespace textbook

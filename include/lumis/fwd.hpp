@@ -73,6 +73,8 @@ class PiecewiseConstant2DView;
 template <Real T>
 struct CosineHemisphere;
 template <Real T>
+class HenyeyGreenstein;
+template <Real T>
 class UniformCone;
 template <Real T>
 struct UniformHemisphere;

@@ -32,6 +32,7 @@
 #include "lumis/core/surface_point.hpp"
 #include "lumis/core/uniforms.hpp"
 #include "lumis/directions/cosine_hemisphere.hpp"
+#include "lumis/directions/henyey_greenstein.hpp"
 #include "lumis/directions/uniform_cone.hpp"
 #include "lumis/directions/uniform_hemisphere.hpp"
 #include "lumis/directions/uniform_sphere.hpp"

@@ -67,6 +67,7 @@ bool check_directions() {
     good &= check("uniform hemisphere", UniformHemisphere<float>{});
     good &= check("cosine hemisphere", CosineHemisphere<float>{});
     good &= check("uniform cone", UniformCone{0.3f});
+    good &= check("Henyey-Greenstein", HenyeyGreenstein{glm::vec3{0.6f, 0, 0.8f}, 0.7f});
     const Frame frame{glm::vec3{0.6f, -0.48f, 0.64f}};
     good &= check("in frame", in_frame(frame, CosineHemisphere<float>{}));
     return good;

@@ -143,7 +143,7 @@ void fuzz_strategies(Input& input, unsigned kind) {
     const auto light = [&]<class Shape, class Sampling>(const Shape& shape, Sampling) {
         check(input, lumis::AreaLight<Shape, Sampling>{shape, numbers()}, Value::UnitDirection);
     };
-    switch (kind % 20) {
+    switch (kind % 21) {
         case 0:
             return check(input, lumis::UniformSphere<T>{}, Value::UnitDirection);
         case 1:
@@ -182,7 +182,9 @@ void fuzz_strategies(Input& input, unsigned kind) {
             return light(any_parallelogram(), lumis::BySolidAngle{});
         case 17:
             return light(any_sphere(), lumis::BySolidAngle{});
-        case 18: {
+        case 18:
+            return check(input, lumis::HenyeyGreenstein<T>{any_direction<T>(input), input.number<T>()});
+        case 19: {
             const auto bsdf =
                 lumis::in_frame(any_frame<T>(input), lumis::GgxReflection<T>{any_direction<T>(input), any_alpha()});
             check(input, bsdf);

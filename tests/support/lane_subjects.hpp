@@ -62,6 +62,27 @@ struct Cone {
     }
 };
 
+// By wo and the mean cosine.
+struct HenyeyGreenstein {
+    static constexpr std::size_t parameters = 4;
+    template <class R>
+    static auto make(const std::array<R, 4>& p) {
+        return lumis::HenyeyGreenstein<R>{lumis::Direction<R>{p[0], p[1], p[2]}, p[3]};
+    }
+    template <class T>
+    static std::array<T, 4> random(std::mt19937& engine) {
+        std::uniform_real_distribution<double> mean_cosine{-0.999, 0.999};
+        const auto w = random_unit<T>(engine);
+        return {w.x, w.y, w.z, T(mean_cosine(engine))};
+    }
+    template <class T>
+    static std::vector<std::array<T, 4>> degenerate() {
+        const T nan = not_a_number<T>, even = T(0.3);
+        return {{0, 0, 0, even}, {3, 4, 0, even}, {nan, 0, 1, even}, {0, 1, 0, nan},
+                {0, 1, 0, 1},    {0, 0, 1, -1},   {0, 0, 1, 2}};
+    }
+};
+
 // By the direction of its centre, and the half-angle.
 struct Sun {
     static constexpr std::size_t parameters = 4;
@@ -336,7 +357,7 @@ struct MakeSphere {
 
 using WithOwnParameters =
     std::tuple<WithoutParameters<lumis::CosineHemisphere>, WithoutParameters<lumis::UniformHemisphere>,
-               WithoutParameters<lumis::UniformSphere>, Cone, Sun, InFrameOfNormal, InFrameOfThree,
+               WithoutParameters<lumis::UniformSphere>, Cone, HenyeyGreenstein, Sun, InFrameOfNormal, InFrameOfThree,
                OfDirectionAndRoughness<MakeGgxNdf>, OfDirectionAndRoughness<MakeGgxVndf>,
                OfDirectionAndRoughness<MakeGgxReflection>, OfDirectionAndRoughness<MakeGgxBoundedReflection>,
                OfDirectionAndRoughness<MakeReflectedNdf>, OfDirectionAndRoughness<MakePerfectReflection>,

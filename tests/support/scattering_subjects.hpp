@@ -91,6 +91,21 @@ struct UniformCone {
     }
 };
 
+struct HenyeyGreenstein {
+    template <class T>
+    static auto make() {
+        std::vector<Subject<lumis::HenyeyGreenstein<T>>> result;
+        for (const double g : {-0.9, -0.3, 0.0, 1e-5, 0.6, 0.99, 0.9999}) {
+            const glm::dvec3 wo = direction(-0.4, 1), peak = g < 0 ? wo : -wo;
+            result.push_back({label("g ", g),
+                              {glm::vec<3, T>(wo), static_cast<T>(g)},
+                              lumis::testing::lobe_chart(peak, 2 * (1 - std::abs(g)))});
+            result.back().integrand = lumis::testing::everywhere;
+        }
+        return result;
+    }
+};
+
 struct GgxNdf {
     template <class T>
     static auto make() {

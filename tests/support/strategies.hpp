@@ -15,6 +15,7 @@ using Strategies = std::tuple<subjects::CosineHemisphere,           //
                               subjects::UniformHemisphere,          //
                               subjects::UniformSphere,              //
                               subjects::UniformCone,                //
+                              subjects::HenyeyGreenstein,           //
                               subjects::GgxNdf,                     //
                               subjects::GgxVndf,                    //
                               subjects::GgxReflection,              //
