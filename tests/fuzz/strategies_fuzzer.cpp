@@ -143,7 +143,12 @@ void fuzz_strategies(Input& input, unsigned kind) {
     const auto light = [&]<class Shape, class Sampling>(const Shape& shape, Sampling) {
         check(input, lumis::AreaLight<Shape, Sampling>{shape, numbers()}, Value::UnitDirection);
     };
-    switch (kind % 21) {
+    const auto light_by_cosine = [&]<class Shape>(const Shape& shape) {
+        const V point = numbers();
+        check(input, lumis::AreaLight<Shape, lumis::ByCosine>{shape, point, any_direction<T>(input)},
+              Value::UnitDirection);
+    };
+    switch (kind % 25) {
         case 0:
             return check(input, lumis::UniformSphere<T>{}, Value::UnitDirection);
         case 1:
@@ -189,6 +194,16 @@ void fuzz_strategies(Input& input, unsigned kind) {
                 lumis::in_frame(any_frame<T>(input), lumis::GgxReflection<T>{any_direction<T>(input), any_alpha()});
             check(input, bsdf);
             return check_estimates<T>(input, bsdf, lumis::AreaLight{any_triangle(), numbers()});
+        }
+        case 20:
+            return light_by_cosine(any_triangle());
+        case 21:
+            return light_by_cosine(any_parallelogram());
+        case 22:
+            return check(input, lumis::UniformCone<T>{input.number<T>()}, Value::UnitDirection);
+        case 23: {
+            const V direction = any_direction<T>(input);
+            return check(input, lumis::Sun<T>{direction, input.number<T>()});
         }
         default: {
             using Light = lumis::AreaLight<lumis::Sphere<T>, lumis::BySolidAngle>;

@@ -210,7 +210,21 @@ TEMPLATE_TEST_CASE("lights of nothing to draw raise no floating-point exception"
                   keep(area.invert(point));
               }) == 0);
     };
-    for (const V& point : {V(0, 0, 0), V(T(0.25), T(0.25), 0), V(5, 0, 0), V(1, 0, 0)}) {
+    const auto check_by_cosine = [](const auto& shape, const V& point) {
+        using Light = lumis::AreaLight<std::remove_cvref_t<decltype(shape)>, lumis::ByCosine>;
+        for (const V& normal : {V(0, 0, 1), V(0, 0, -1), V(1, 0, 0), V(0, T(-0.6), T(0.8))}) {
+            INFO("seen from " << point.x << ", " << point.y << ", " << point.z << " at the normal " << normal.x << ", "
+                              << normal.y << ", " << normal.z);
+            check_making_raises_nothing([&] { return Light{shape, point, normal}; });
+            CHECK(exceptions_raised_by([&] {
+                      const Light light{shape, point, normal};
+                      keep(light.sample({T(0.5), T(0.25)}));
+                      keep(light.pdf({T(0), T(0), T(1)}));
+                      keep(light.invert({T(0), T(0), T(1)}));
+                  }) == 0);
+        }
+    };
+    for (const V& point : {V(0, 0, 0), V(T(0.25), T(0.25), 0), V(5, 0, 0), V(1, 0, 0), V(T(0.25), T(0.25), -1)}) {
         for (const T size : {T(1), T(0)}) {
             const lumis::Triangle<T> triangle{V(0, 0, 0), V(size, 0, 0), V(0, size, 0)};
             const lumis::Parallelogram<T> square{V(0, 0, 0), V(size, 0, 0), V(0, size, 0)};
@@ -221,6 +235,8 @@ TEMPLATE_TEST_CASE("lights of nothing to draw raise no floating-point exception"
             check(square, lumis::ByArea{}, point);
             check(square, lumis::BySolidAngle{}, point);
             check(skew, lumis::BySolidAngle{}, point);
+            check_by_cosine(triangle, point);
+            check_by_cosine(skew, point);
             check(lumis::Disk<T>{V(0, 0, 0), V(0, 0, 1), size}, lumis::ByArea{}, point);
             check(sphere, lumis::ByArea{}, point);
             check(sphere, lumis::BySolidAngle{}, point);

@@ -23,6 +23,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <cmath>
 #include <concepts>
 
 namespace lumis::LUMIS_ISA::detail {
@@ -38,6 +39,10 @@ class CosineFan {
   public:
     // Empty where nothing is seen above the horizon.
     LUMIS_INLINE CosineFan(const FlatShape<Shape>& shape, const Direction<T>& normal) noexcept {
+        // Edge-on, or from a vertex, it subtends nothing.
+        const auto& [corner, edge_u, edge_v] = shape.in_units();
+        const W volume = glm::dot(corner, cross(edge_u, edge_v));
+        if (!(std::abs(volume) > 0)) return;
         const Polygon polygon{shape, Vector{normal}};
         if (polygon.size() < 3) return;
         const auto [nearest, next, apex] = polygon.nearest_to_normal();
@@ -47,12 +52,12 @@ class CosineFan {
         const int triangles = closed_                             ? polygon.size()
                               : nearest == Polygon::Nearest::Edge ? polygon.size() - 1
                                                                   : polygon.size() - 2;
-        const bool turned = is_turned(shape);
+        const bool clockwise = volume < 0;  // as the vertices are seen
         const W scale = 1 / apex.cosine;
         auto start = spoke_to(polygon[next], apex, scale);
         Vector to_start = polygon.between(apex, polygon[next]);
         for (int i = next; i < next + triangles; ++i) {
-            const auto& [b, c] = std::pair<const Point&, const Point&>{polygon[i], polygon[i + 1]};
+            const Point &b = polygon[i], &c = polygon[i + 1];
             const auto end = spoke_to(c, apex, scale);
             const Vector to_end = polygon.between(apex, c);
             const SphericalTriangle<T> triangle{apex.position, b.position, c.position, to_start, to_end};
@@ -60,7 +65,7 @@ class CosineFan {
                 const BilinearWarp<T> warp{start.at_apex, end.at_apex, start.at_edge, end.at_edge};
                 sum_ += triangle.solid_angle() * warp.mean();
                 // Scaled, so that no square of a component leaves the range of T.
-                const Vector side = turned ? cross(to_end, apex.position) : cross(apex.position, to_end);
+                const Vector side = clockwise ? cross(to_end, apex.position) : cross(apex.position, to_end);
                 const W length = real::length(side);
                 const Vector beyond = side * real::quotient_where(length > 0, W(1), length);
                 pieces_[size_++] = {triangle, warp, Direction<T>{beyond}, sum_};
@@ -126,18 +131,13 @@ class CosineFan {
         T at_apex, at_edge;
     };
     [[nodiscard]] LUMIS_INLINE static Spoke spoke_to(const Point& q, const Point& apex, W scale) noexcept {
-        const W cos_arc = real::divide(glm::dot(apex.position, q.position), apex.length * q.length);
+        const W lengths = apex.length * q.length;
+        const W cos_arc = real::quotient_where(lengths > 0, W(glm::dot(apex.position, q.position)), lengths);
         const W d = scale * q.cosine - cos_arc;
         // Positive throughout: a density of 0 anywhere above the horizon would be a bias.
         const W least = real::greater(scalar_of<W>(0.5) * scale * q.cosine, scalar_of<W>(1.0 / 256));
         return {static_cast<T>(1 + d * scalar_of<W>(4.0 / 15)),
                 static_cast<T>(real::greater(scale * q.cosine + d * scalar_of<W>(1.0 / 15), least))};
-    }
-
-    // Whether the vertices are passed clockwise, as seen from the reference point.
-    [[nodiscard]] LUMIS_INLINE static bool is_turned(const FlatShape<Shape>& shape) noexcept {
-        const auto& [corner, u, v] = shape.in_units();
-        return glm::dot(corner, cross(u, v)) < 0;
     }
 
     [[nodiscard]] LUMIS_HD T start_of(int i) const noexcept { return i > 0 ? pieces_[i - 1].end : T(0); }
