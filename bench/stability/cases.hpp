@@ -30,6 +30,10 @@ Measured ggx_reflection(Effort effort);
 template <class T>
 Measured ggx_bounded_reflection(Effort effort);
 template <class T>
+Measured fresnel(Effort effort);
+template <class T>
+Measured ggx_dielectric(Effort effort);
+template <class T>
 Measured ggx_nothing_to_draw(Effort effort);
 template <class T>
 Measured ggx_albedo(Effort effort);

@@ -1,8 +1,12 @@
-// Hemispheres and GGX: densities and what they are made of.
+// Hemispheres, GGX and dielectrics: densities and what they are made of.
 #include "cases.hpp"
 #include "directions.hpp"
+#include <lumis/microfacets/fresnel.hpp>
+#include <lumis/microfacets/ggx_dielectric.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <concepts>
 #include <numbers>
 
 namespace stability {
@@ -48,11 +52,12 @@ struct QuadGgx {
 };
 
 // Density of what is drawn, against the reference at the very same value. left(value) is what a sum in it that cancels
-// leaves of its terms, by which the error is multiplied.
+// leaves of its terms, by which the error is multiplied. third: the uniform behind the two that vary, if there is one.
 template <class T, class S>
-void check_drawn(Measured& measured, const S& strategy, std::int64_t random, auto reference, auto left) {
+void check_drawn(Measured& measured, const S& strategy, std::int64_t random, auto reference, auto left,
+                 std::same_as<T> auto... third) {
     for_each_uniform<T>(random, [&](const auto& u) {
-        const auto sample = strategy.sample(u);
+        const auto sample = strategy.sample({u.x, u.y, third...});
         measured.sample<T>(sample, strategy.pdf(sample.value));
         if (!(sample.pdf > 0)) return;
         measured.expect(std::abs(static_cast<double>(length(quad(sample.value)) - 1)) <=
@@ -71,6 +76,70 @@ template <class T, class S>
 void check_drawn(Measured& measured, const S& strategy, std::int64_t random, auto reference) {
     check_drawn<T>(measured, strategy, random, reference, [](const QuadVector&) { return Quad{1}; });
 }
+
+// Fresnel's amplitudes, from the indices and cosines on both sides.
+struct QuadFresnel {
+    Quad reflected, transmitted;
+
+    QuadFresnel(const Quad& n_o, const Quad& cos_o, const Quad& n_i, const Quad& cos_i) {
+        const Quad s = (n_o * cos_o - n_i * cos_i) / (n_o * cos_o + n_i * cos_i);
+        const Quad p = (n_i * cos_o - n_o * cos_i) / (n_i * cos_o + n_o * cos_i);
+        reflected = (s * s + p * p) / 2;
+        transmitted = 1 - reflected;
+    }
+};
+
+// Walter et al. 2007, eqs. 13 to 17, of visible normals. eta: the index below the surface over the one above.
+template <class T>
+struct QuadDielectric {
+    QuadGgx ggx;
+    QuadVector o;
+    Quad side, n_o, n_i;
+
+    QuadDielectric(const lumis::Direction<T>& wo, glm::vec<2, T> alpha, T eta)
+        : ggx{alpha}, o{quad(wo)}, side{wo.z > 0 ? 1 : -1}, n_o{wo.z > 0 ? T(1) : eta}, n_i{wo.z > 0 ? eta : T(1)} {}
+
+    [[nodiscard]] QuadVector normal(const QuadVector& i) const {
+        const QuadVector along = mirrors(i) ? o + i : n_o * o + n_i * i;
+        return ((along.z * side > 0 ? 1 : -1) / length(along)) * along;
+    }
+    [[nodiscard]] bool mirrors(const QuadVector& i) const { return o.z * i.z > 0; }
+    // Of the squared cosine of the refracted ray, times n_i^2.
+    [[nodiscard]] Quad square(const Quad& cos_o) const { return n_i * n_i - n_o * n_o * (1 - cos_o * cos_o); }
+
+    // The cosine of a mirrored pair is half of the length of its sum. A dot product with the normal tells at grazing how far the
+    // directions are from unit length.
+    [[nodiscard]] Quad density(const QuadVector& i) const {
+        if (mirrors(i)) {
+            const Quad om = length(o + i) / 2, turned = square(om);
+            const Quad share = turned > 0 ? QuadFresnel{n_o, om, n_i, sqrt(turned) / n_i}.reflected : Quad{1};
+            return share * ggx.reflection(side * o, side * i);
+        }
+        const QuadVector m = normal(i);
+        const Quad om = dot(o, m), im = dot(i, m), divisor = n_o * om + n_i * im;
+        return QuadFresnel{n_o, om, n_i, -im}.transmitted * ggx.visible_normals(side * o, side * m) * n_i * n_i * -im /
+               (divisor * divisor);
+    }
+
+    // What sums that cancel leave of their terms. Mirrored: the squared cosine of the refracted ray near the critical angle.
+    // Refracted: the half vector's own components, over the lobe's width, and the cosines that are formed with it.
+    [[nodiscard]] Quad left(const QuadVector& i) const {
+        if (mirrors(i)) {
+            const Quad om = length(o + i) / 2;
+            return abs(square(om)) / (n_o * n_o * om * om + abs(n_i * n_i - n_o * n_o));
+        }
+        const QuadVector half = n_o * o + n_i * i;
+        const auto terms_of = [&](const Quad& x, const Quad& y) -> Quad {
+            return abs(x + y) + abs((n_o - 1) * x) + abs((n_i - 1) * y);
+        };
+        const QuadVector terms{terms_of(o.x, i.x), terms_of(o.y, i.y), terms_of(o.z, i.z)};
+        const auto of_sum = [&](const QuadVector& w) -> Quad {
+            return abs(dot(w, half)) / (abs(w.x) * terms.x + abs(w.y) * terms.y + abs(w.z) * terms.z);
+        };
+        const Quad narrowest = std::min({ggx.ax, ggx.ay, Quad{1}});
+        return of_sum(o) * of_sum(i) * narrowest * length(half) / (terms.x + terms.y + terms.z);
+    }
+};
 
 template <class T, class Visit>
 void for_each_surface(Visit visit) {
@@ -198,6 +267,67 @@ Measured ggx_bounded_reflection(Effort effort) {
 }
 
 template <class T>
+Measured fresnel(Effort effort) {
+    Measured measured;
+    const auto check = [&](T cosine, T eta) {
+        const Quad c{cosine}, n{eta}, turned = n * n - 1 + c * c;
+        const auto shares = lumis::fresnel_shares(cosine, eta);
+        if (!(turned > 0)) return measured.expect(shares.reflected == 1 && shares.transmitted == 0);
+        const QuadFresnel expected{1, c, n, sqrt(turned) / n};
+        const double left = static_cast<double>(turned / (c * c + abs(n * n - 1)));
+        const auto compare = [&](T share, const Quad& reference) {
+            measured.density(share);
+            measured.error(left * static_cast<double>(abs(Quad{share} - reference) / reference));
+        };
+        compare(shares.transmitted, expected.transmitted);
+        measured.usual(1 - shares.reflected, expected.transmitted);
+        if (eta == 1) return measured.expect(shares.reflected == 0);
+        compare(shares.reflected, expected.reflected);
+        const T cos_t = static_cast<T>(sqrt(turned) / n);
+        const T s = (cosine - eta * cos_t) / (cosine + eta * cos_t),
+                p = (eta * cosine - cos_t) / (eta * cosine + cos_t);
+        measured.usual((s * s + p * p) / 2, expected.reflected);
+    };
+    sweep(1e-6, 100, effort.quick ? 8 : 32, [&](double excess) {
+        for (const double eta : {1 + excess, 1 / (1 + excess), 1.0}) {
+            sweep(1e-6, 1, effort.quick ? 8 : 32,
+                  [&](double cosine) { check(static_cast<T>(cosine), static_cast<T>(eta)); });
+            const double critical = eta < 1 ? std::sqrt((1 - eta) * (1 + eta)) : 0;
+            for (const double beside : {-1e-3, -1e-6, 1e-6, 1e-3}) {
+                if (critical > 0) check(static_cast<T>(std::min(critical * (1 + beside), 1.0)), static_cast<T>(eta));
+            }
+        }
+    });
+    return measured;
+}
+
+template <class T>
+Measured ggx_dielectric(Effort effort) {
+    Measured measured;
+    // 1 + 2^-20 hardly bends: float has the lobe on a few of its directions.
+    for (const double eta : {1.5, 1 / 2.4, 1.01, 1 + 0x1p-20}) {
+        for (const glm::dvec2 alpha : {glm::dvec2{1e-4, 1e-4}, {1e-3, 0.5}, {0.1, 0.1}, {1, 1}}) {
+            const glm::vec<2, T> own_alpha{alpha};
+            const T own_eta = static_cast<T>(eta);
+            for_each_cosine([&](double cosine) {
+                for (const double side : {1.0, -1.0}) {
+                    const auto wo = at_cosine<T>(side * cosine);
+                    const lumis::GgxDielectric<T> glass{wo, own_alpha, own_eta};
+                    const QuadDielectric<T> reference{wo, own_alpha, own_eta};
+                    // One lobe, where it is drawn at all.
+                    for (const T choice : {T(0), T(1)}) {
+                        check_drawn<T>(
+                            measured, glass, effort.of(10), [&](const QuadVector& i) { return reference.density(i); },
+                            [&](const QuadVector& i) { return reference.left(i); }, choice);
+                    }
+                }
+            });
+        }
+    }
+    return measured;
+}
+
+template <class T>
 Measured ggx_nothing_to_draw(Effort) {
     Measured measured;
     const auto check = [&](const auto& strategy) {
@@ -226,6 +356,22 @@ Measured ggx_nothing_to_draw(Effort) {
         check_all(at_cosine<T>(0.5), {T(0.5), alpha});
         check(lumis::GgxNdf<T>{{alpha, alpha}});
     }
+    const auto check_glass = [&](const lumis::Direction<T>& wo, const glm::vec<2, T>& alpha, T eta) {
+        const lumis::GgxDielectric<T> glass{wo, alpha, eta};
+        for_each_uniform<T>(20, [&](const auto& u) {
+            for (const T choice : {T(0), T(1)}) {
+                const auto sample = glass.sample({u.x, u.y, choice});
+                measured.sample<T>(sample, glass.pdf(sample.value));
+                measured.expect(sample.pdf == 0 && glass.pdf(sample.value) == 0);
+            }
+        });
+    };
+    for (const T bad : {T(-1.5), T(0), T(2e4), infinity, nan}) {
+        if (measured.leaves_out<T>(bad)) continue;
+        check_glass(at_cosine<T>(-0.5), {T(0.5), T(0.5)}, bad);
+    }
+    check_glass({T(1), T(0), T(0)}, {T(0.5), T(0.5)}, T(1.5));
+    check_glass(at_cosine<T>(0.5), {T(-0.5), T(0.5)}, T(1.5));
     return measured;
 }
 
@@ -243,6 +389,10 @@ template Measured ggx_reflection<float>(Effort);
 template Measured ggx_reflection<double>(Effort);
 template Measured ggx_bounded_reflection<float>(Effort);
 template Measured ggx_bounded_reflection<double>(Effort);
+template Measured fresnel<float>(Effort);
+template Measured fresnel<double>(Effort);
+template Measured ggx_dielectric<float>(Effort);
+template Measured ggx_dielectric<double>(Effort);
 template Measured ggx_nothing_to_draw<float>(Effort);
 template Measured ggx_nothing_to_draw<double>(Effort);
 
