@@ -15,9 +15,7 @@
 #include <optional>
 #include <span>
 #include <tuple>
-#include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace convergence {
 
@@ -43,6 +41,7 @@ struct OptimalWeights {
 template <class F, class... S>
 class AllocatedSamples {
     static constexpr std::size_t size = sizeof...(S);
+    using Heuristic = lumis::BalanceHeuristic;
 
   public:
     // covers: which technique draws all points where the integrand is not 0.
@@ -50,75 +49,61 @@ class AllocatedSamples {
         : f_{f}, covers_{covers}, strategies_{strategies...} {}
 
     void operator()(std::span<double> sums, std::int64_t count, auto& uniforms) const {
-        if (!costs_) costs_ = measured_costs(std::index_sequence_for<S...>{}, uniforms);
+        if (!costs_) costs_ = measured_costs(uniforms);
         for (double& sum : sums) {
-            const auto counts = advised(pilot_rounds(count), uniforms);
+            auto plan = new_plan();
+            const std::int64_t rounds = std::max<std::int64_t>(4, count / pilots_share);
+            for (std::int64_t i = 0; i < rounds; ++i) (void)plan.add(f_, uniforms);
+            const auto estimator = taking(plan.counts(*costs_, {.covers = covers_}));
             sum = 0;
-            take(counts, std::index_sequence_for<S...>{}, [&](const auto& estimator) {
-                for (std::int64_t i = 0; i < count; ++i) sum += estimator.estimate(f_, uniforms);
-            });
+            for (std::int64_t i = 0; i < count; ++i) sum += estimator.estimate(f_, uniforms);
         }
     }
 
   private:
+    using Counts = std::array<int, size>;
     using Costs = lumis::SamplingCosts<size>;
+    static constexpr std::int64_t pilots_share = 16;  // one round in so many estimates
 
-    [[nodiscard]] static std::int64_t pilot_rounds(std::int64_t count) { return std::max<std::int64_t>(4, count / 16); }
-
-    [[nodiscard]] std::array<int, size> advised(std::int64_t rounds, auto& uniforms) const {
-        auto plan = std::apply(
-            [](const auto&... s) { return lumis::allocate(lumis::BalanceHeuristic{}, lumis::take(1, s)...); },
-            strategies_);
-        for (std::int64_t i = 0; i < rounds; ++i) (void)plan.add(f_, uniforms);
-        return plan.counts(*costs_, {.covers = covers_});
+    [[nodiscard]] auto new_plan() const {
+        return std::apply([](const auto&... s) { return lumis::allocate(Heuristic{}, lumis::take(1, s)...); },
+                          strategies_);
     }
-
+    [[nodiscard]] auto taking(const Counts& counts) const { return taking(counts, std::index_sequence_for<S...>{}); }
     template <std::size_t... I>
-    void take(const std::array<int, size>& counts, std::index_sequence<I...>, const auto& use) const {
-        use(multi_sample(lumis::BalanceHeuristic{}, lumis::take(counts[I], std::get<I>(strategies_))...));
+    [[nodiscard]] auto taking(const Counts& counts, std::index_sequence<I...>) const {
+        return multi_sample(Heuristic{}, lumis::take(counts[I], std::get<I>(strategies_))...);
     }
 
-    template <std::size_t... I>
-    [[nodiscard]] Costs measured_costs(std::index_sequence<I...>, auto& uniforms) const {
-        Costs costs;
-        ((costs.of_sample[I] = cost_of_sample<I>(uniforms), costs.of_density[I] = cost_of_density<I>(uniforms)), ...);
-        return costs;
+    [[nodiscard]] Costs measured_costs(auto& uniforms) const {
+        Counts once_each;
+        once_each.fill(1);
+        std::array<double, size> alone, one_more;
+        for (std::size_t i = 0; i < size; ++i) {
+            Counts only{}, more = once_each;
+            only[i] = 1;
+            more[i] = 2;
+            alone[i] = seconds_of_estimate(only, uniforms);
+            one_more[i] = seconds_of_estimate(more, uniforms);
+        }
+        return decltype(new_plan())::costs_from_times(alone, seconds_of_estimate(once_each, uniforms), one_more);
     }
 
-    // Seconds of CPU time that work() takes, over so many calls that the clock tells.
-    [[nodiscard]] static double seconds_of(const auto& work) {
-        for (std::int64_t calls = 1;; calls *= 2) {
+    // CPU time; the least of several batches, which nothing else has interrupted.
+    [[nodiscard]] double seconds_of_estimate(const Counts& counts, auto& uniforms) const {
+        const auto estimator = taking(counts);
+        constexpr int batches = 8, estimates = 1000;
+        double least = std::numeric_limits<double>::infinity();
+        volatile double sink = 0;
+        for (int batch = 0; batch < batches; ++batch) {
             const tracer::ThreadClock clock;
-            for (std::int64_t i = 0; i < calls; ++i) work();
-            if (const double seconds = clock.seconds(); seconds >= 2e-4) return seconds / static_cast<double>(calls);
-        }
-    }
-
-    template <std::size_t I>
-    [[nodiscard]] double cost_of_sample(auto& uniforms) const {
-        const auto alone = multi_sample(lumis::BalanceHeuristic{}, lumis::take(1, std::get<I>(strategies_)));
-        volatile double sink = 0;
-        return seconds_of([&] { sink = sink + alone.estimate(f_, uniforms); });
-    }
-
-    // Of technique I's density at points that the next technique draws.
-    template <std::size_t I>
-    [[nodiscard]] double cost_of_density(auto& uniforms) const {
-        const auto& other = std::get<(I + 1) % size>(strategies_);
-        using Other = std::remove_cvref_t<decltype(other)>;
-        using Point = typename Other::Point;
-        std::vector<Point> points;
-        while (points.size() < 256) {
-            const auto drawn = other.sample(uniforms.template next<Other::dimensions>());
-            if (drawn.pdf > 0) points.push_back(drawn.value);
-        }
-        volatile double sink = 0;
-        const double seconds = seconds_of([&] {
             double sum = 0;
-            for (const Point& point : points) sum += std::get<I>(strategies_).pdf(point);
+            for (int i = 0; i < estimates; ++i) sum += estimator.estimate(f_, uniforms);
             sink = sum;
-        });
-        return seconds / static_cast<double>(points.size());
+            least = std::min(least, clock.seconds() / estimates);
+        }
+        static_cast<void>(sink);
+        return least;
     }
 
     F f_;

@@ -99,6 +99,25 @@ def close():
                                        "integrators": integrators}
 
 
+def many():
+    """So many problems that the page says what to use, with every kind of estimator; two that resample in one of them."""
+    problem = example()["problems"][0]
+    problems = []
+    for i in range(10):
+        integrators = [
+            estimator("balance", 3e-6), estimator("power", 2e-6), estimator("one-sample", 9e-6), estimator("average", 1e-3),
+            estimator("uniform on [0, 1)", 1e-6, model="alone"),
+            estimator("optimal", 1e-6 * 2 ** (i - 4), model="optimal", whole_runs=True),
+            estimator("allocated", 1.5e-6, model="allocated", whole_runs=True),
+            estimator("sobol", 1e-11, model="sobol", whole_runs=True)]
+        problems.append(problem | {"name": f"problem-{i}", "title": f"Problem {i}, of which there are many",
+                                         "integrators": integrators})
+    problems.append(problem | {"name": "resampling", "title": "Resampling", "strategies": [], "integrators": [
+        estimator("by power", 4e-6, model="alone"), estimator("resampled 1", 4e-6, model="resampled"),
+        estimator("resampled 32", 1e-6, model="resampled")]})
+    return example() | {"problems": problems}
+
+
 def nothing_finite():
     results = example()
     results["problems"][0]["integrators"] = [unknown("power", "not finite", not_finite=5, evaluated=10)]

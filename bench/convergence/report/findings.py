@@ -128,21 +128,24 @@ def totals(overview, names):
     return {"columns": summaries, "spread": spreads[len(spreads) // 2] if spreads else None,
             "alone": summaries[len(names) + 1] if summaries else None,
             "safest": safest and {"name": safest} | combined[safest] if len(overview) >= ENOUGH else None,
-            "reference": safest,
             "advice": [advice(overview, names, model, safest) for model in names[len(COMBINED):] if safest]}
 
 
 def advice(overview, names, model, safest):
-    """When a model beyond is the choice, and how many times as efficient as the safest it is: in the median of the problems
-    that have both, at worst, and in how many it is ahead."""
-    rows = [(row["cells"][names.index(safest)], row["cells"][names.index(model)]) for row in overview]
-    times = sorted(one["factor"] / other["factor"] for one, other in rows
-                   if one and other and one["factor"] and other["factor"] and math.isfinite(one["factor"]))
+    """When a model beyond is the choice, and how many times as efficient as the safest it is, or as the best technique alone
+    where no problem has both: in the median of the problems that have both, at worst, and in how many it is ahead."""
+    column = names.index(model)
+    for reference, name in ((names.index(safest), safest), (len(names), "the best technique alone")):
+        pairs = [(row["cells"][reference], row["cells"][column]) for row in overview]
+        times = sorted(one["factor"] / other["factor"] for one, other in pairs
+                       if one and other and one["factor"] and other["factor"] and math.isfinite(one["factor"]))
+        if times:
+            break
     whole = [i["points"][-1]["samples"] for row in overview for i in row["problem"]["integrators"]
              if i["model"] == model and i["whole_runs"]]
-    return {"name": model, "when": BEYOND[model], "of": len(times), "estimates": max(whole, default=None),
-            "ahead": sum(one > 1 for one in times), "median": times[len(times) // 2] if times else None,
-            "worst": min(times, default=None), "best": max(times, default=None)}
+    return {"name": model, "when": BEYOND[model], "of": len(times), "reference": name,
+            "estimates": max(whole, default=None), "ahead": sum(one > 1 for one in times),
+            "median": times[len(times) // 2] if times else None, "worst": min(times, default=None)}
 
 
 def level(factor):
