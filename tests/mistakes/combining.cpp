@@ -100,6 +100,18 @@ namespace {
 #endif
 }
 
+[[maybe_unused]] void optimal_weights() {
+#ifdef COLOUR_IN_A_NUMBER  // says: optimal<glm::vec3>\(...\) for a glm::vec3
+    auto best = optimal(take(1, cosine), take(1, uniform));
+#else
+    auto best = optimal<glm::vec3>(take(1, cosine), take(1, uniform));
+#endif
+    best.add([](const glm::vec3& w) { return w; }, uniforms);
+#ifdef SPECTRUM_IN_DOUBLE  // says: integrands that return a number or a glm::vec
+    best.add([](const glm::vec3&) { return Spectrum{1}; }, uniforms);
+#endif
+}
+
 [[maybe_unused]] void techniques() {
 #ifdef SHAPE_FOR_A_STRATEGY  // says: Strategy
     (void)take(1, Sphere<float>{});
