@@ -39,6 +39,30 @@ struct Heuristics {
     }
 };
 
+// What pilot rounds advise, for 256 of them, and what a rough metal is given back.
+struct Plans {
+    static constexpr int size = 6;
+
+    LUMIS_HD void operator()(unsigned index, float* out) const {
+        device::Stream uniforms{index};
+        const GgxReflection<float> metal{{0, 0.6f, 0.8f}, 0.4f};
+        const auto f = [&](const glm::vec3& w) { return metal.ggx().brdf({0, 0.6f, 0.8f}, w) * w.z; };
+        auto plan = allocate(PowerHeuristic{}, take(1, metal), take(1, CosineHemisphere<float>{}));
+        auto optimum = allocate(OptimalWeights{}, take(1, metal), take(1, CosineHemisphere<float>{}));
+        float sum = 0;
+        for (int i = 0; i < 256; ++i) {
+            sum += plan.add(f, uniforms);
+            sum += optimum.add(f, uniforms);
+        }
+        out[0] = sum;
+        out[1] = static_cast<float>(plan.forecast().multi_sample_variance({2, 1}));
+        out[2] = static_cast<float>(optimum.forecast().one_sample_variance({2, 1}));
+        out[3] = static_cast<float>(plan.counts({{2, 1}})[0] > 0);
+        out[4] = static_cast<float>(plan.probabilities()[0] + plan.probabilities()[1]);
+        out[5] = ggx_compensation(metal.ggx(), glm::vec3{0, 0.6f, 0.8f}, 0.9f);
+    }
+};
+
 struct Mixtures {
     static constexpr int size = 10;
     Parts parts;
@@ -95,10 +119,13 @@ struct Paths {
         const auto mixed = one_sample(BalanceHeuristic{}, choose(0.5f, light), choose(0.4f, lobe));
         float selected = 0;
         const bool drawn = mixed.weighted_sample(uniforms, [&](const auto& s) { selected = s.factor(); });
-        const Color color =
-            direct.estimate([](const glm::vec3& w, auto t) { return Color{w.x * w.x, t == 0 ? 1.0f : 0.0f}; }, uniforms);
-        const float numbers[size] = {a.sample.distance, a.weight(), a.factor(), b.density, b.weight_given<0>(2.0f),
-                                     drawn ? selected : -1, color.r, color.g};
+        const Color color = direct.estimate(
+            [](const glm::vec3& w, auto t) {
+                return Color{w.x * w.x, t == 0 ? 1.0f : 0.0f};
+            },
+            uniforms);
+        const float numbers[size] = {a.sample.distance,     a.weight(), a.factor(), b.density, b.weight_given<0>(2.0f),
+                                     drawn ? selected : -1, color.r,    color.g};
         for (int i = 0; i < size; ++i) out[i] = numbers[i];
     }
 };
@@ -185,6 +212,7 @@ int main() {
     const Parts here{sky.view(), powers.view(), lights, bsdf};
     const Parts there{sky.view(copies), powers.view(copies), copies(std::span<const Light>{lights}), bsdf};
     bool good = device::agrees("heuristics", Heuristics{}, Heuristics{});
+    good &= device::agrees("plans", Plans{}, Plans{});
     good &= device::agrees("mixtures and light sets", Mixtures{here}, Mixtures{there});
     good &= device::agrees("paths", Paths{here}, Paths{there});
     good &= device::agrees("estimates", Estimates{here}, Estimates{there});

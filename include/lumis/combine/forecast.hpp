@@ -8,6 +8,7 @@
 #include "lumis/combine/detail/splits.hpp"
 #include "lumis/combine/sampling_costs.hpp"
 #include "lumis/core/assert.hpp"
+#include "lumis/core/detail/for_each_index.hpp"
 #include "lumis/core/platform.hpp"
 
 #include <array>
@@ -46,13 +47,13 @@ class Forecast {
         : rounds_{rounds}, asks_all_{std::same_as<Sums, detail::PilotEquations<smooth>>} {
         if (!(rounds > 0)) return;
         double delta_mean = 0;
-        for (std::size_t d = 0; d < deltas; ++d) {
+        detail::for_each_index<deltas>([&](auto d) {
             const double mean = delta_sums[d].first / rounds, second = delta_sums[d].second / rounds;
             delta_variances_[d] = second - mean * mean;
             // Optimal weights take the mean off, as if it were known.
             delta_seconds_[d] = asks_all_ ? delta_variances_[d] : second;
             if (!asks_all_) delta_mean += mean;
-        }
+        });
         misses_ = sums.misses;
         std::size_t k = 0;
         detail::for_each_split<smooth>([&](const auto& split) {
