@@ -177,6 +177,16 @@ template <class... S>
 class MultiSampleRounds;
 template <class... S>
 class OneSampleRounds;
+struct OptimalWeights;
+struct Luminance;
+template <class H, class... S>
+class Allocation;
+template <bool... is_delta>
+class Forecast;
+template <std::size_t N>
+struct SamplingCosts;
+template <std::size_t N>
+struct AllocationLimits;
 
 // statistics
 template <std::floating_point T>

@@ -17,6 +17,7 @@
 #undef Real
 #undef real
 
+#include "lumis/combine/allocate.hpp"
 #include "lumis/combine/heuristics.hpp"
 #include "lumis/combine/in_frame.hpp"
 #include "lumis/combine/mixture.hpp"
@@ -50,6 +51,7 @@
 #include "lumis/lights/surface_area.hpp"
 #include "lumis/lights/surface_light.hpp"
 #include "lumis/microfacets/ggx.hpp"
+#include "lumis/microfacets/ggx_albedo.hpp"
 #include "lumis/microfacets/ggx_bounded_reflection.hpp"
 #include "lumis/microfacets/ggx_ndf.hpp"
 #include "lumis/microfacets/ggx_reflection.hpp"
