@@ -40,14 +40,18 @@ auto by_cosine(const char* name, const Shape& shape, const glm::dvec3& reference
     using Light = lumis::AreaLight<Shape, lumis::ByCosine>;
     const glm::dvec3 unit = glm::normalize(normal);
     const auto [chart, blur] = view_above(corners, unit);
-    // An inverse decides on the density, to as many digits as it has.
+    // An inverse decides on the density, to as many digits as it has: of small rectangles few, see solid_angle_subjects.hpp.
+    const lumis::AreaLight<Shape, lumis::BySolidAngle> whole{shape, glm::vec<3, T>(reference), sides};
+    const double lost = 2 / static_cast<double>(whole.solid_angle());
+    auto round_trip = few_digits;
+    round_trip.tolerance += lost;
     Subject<Light> subject{name,
                            Light{shape, glm::vec<3, T>(reference), glm::vec<3, T>(unit), sides},
                            chart,
                            1.0,
                            4 * blur * std::numeric_limits<T>::epsilon(),
-                           {.tolerance = 512},
-                           few_digits,
+                           {.tolerance = 512 + lost},
+                           round_trip,
                            fused ? 4096 : 512};
     const auto hits = meets(shape, reference);
     subject.integrand = [hits, unit](const glm::dvec3& w) { return glm::dot(w, unit) > 0 && hits(w); };
@@ -101,6 +105,8 @@ struct ParallelogramByCosine {
             {"square beside the normal", {-1, -1, 1}, {2, 0, 0}, {0, 2, 0}, {1, 0.2, 0.2}},
             {"wall on the floor", {1, -1, 0}, {0, 2, 0}, {0, 0, 2}, up},
             {"wall across the horizon", {1, -1, -1}, {0, 2, 0}, {0, 0, 2}, up},
+            {"wall, its first edge upright", {1, -1, -0.2}, {0, 0, 2}, {0, 2, 0}, up},
+            {"rectangle of 0.02 sr, leaning", {3, 0.1, 0.4}, {0.1, 0.4, 0.05}, {-0.15, 0, 0.3}, {0, 0.6, 0.8}},
             {"five corners above the horizon", {1, -1, -0.5}, {0.5, 1, 1.5}, {0, 2, -0.6}, up},
             {"skew", {1, -1, 2}, {2, 0.5, 1}, {-1, 1, 0.3}, {1, 1, 0.4}},
             {"filling the view", {-1, -1, 0.05}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.1, 1}},

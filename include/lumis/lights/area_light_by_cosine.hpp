@@ -4,14 +4,14 @@
 //
 //     const AreaLight<Triangle<float>, ByCosine> light{triangle, point, normal};
 //
-// See detail/cosine_fan.hpp for how. To make and to draw from it takes two to three times as long as BySolidAngle, and its density,
-// which inverts the map, ten times: where a light is far away, and so at nearly one cosine, that one does as well.
+// See detail/cosine_fan.hpp for how. Its density, which inverts the map, takes ten times as long as that by solid angle: where a light
+// is far away, and so at nearly one cosine, BySolidAngle does as well.
 #pragma once
 
 #include "lumis/core/platform.hpp"
 #include "lumis/lights/area_light.hpp"
 #include "lumis/lights/area_light_by_solid_angle.hpp"
-#include "lumis/lights/detail/cosine_fan.hpp"
+#include "lumis/lights/detail/cosine_map.hpp"
 
 namespace lumis::LUMIS_ISA {
 
@@ -34,11 +34,12 @@ template <class S>
         LUMIS_ASSERT(detail::is_unit(normal));
     }
 
-    // u.x goes around the point of the light that is nearest to the normal, by solid angle and cosine; u.y away from it.
+    // u.x goes around the point of the light that is nearest to the normal, by solid angle and cosine; u.y away from it. In a
+    // rectangle that the normal does not point at or close by, u.x goes along the more level edge and u.y along the steeper one.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_INLINE LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
-        if (fan_.empty()) return {};
-        const auto [w, pdf] = fan_.sample(u);
+        if (map_.empty()) return {};
+        const auto [w, pdf] = map_.sample(u);
         // Rounding may put a direction below the horizon.
         const auto above = glm::dot(w, Direction<R>(normal_)) > 0;
         return detail::seen_at(w, R(real::select(above, pdf, 0)), view_.meet_plane(w).distance);
@@ -55,11 +56,11 @@ template <class S>
 
     // The same, for hosts that know already that w meets the light.
     [[nodiscard]] LUMIS_HD T pdf_from_hit(const Point& w) const noexcept {
-        return !fan_.empty() && glm::dot(w, normal_) > 0 ? fan_.pdf(w) : T(0);
+        return !map_.empty() && glm::dot(w, normal_) > 0 ? map_.pdf(w) : T(0);
     }
 
     [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& w) const noexcept {
-        return fan_.empty() ? glm::vec<2, T>{T(0), T(0)} : fan_.invert(w);
+        return map_.empty() ? glm::vec<2, T>{T(0), T(0)} : map_.invert(w);
     }
 
     // From the reference point to the light, as far as it is above the horizon or not; infinity where w misses it.
@@ -84,10 +85,10 @@ template <class S>
 
   private:
     LUMIS_INLINE AreaLight(const detail::FlatShape<S>& shape, const Direction<T>& normal) noexcept
-        : view_{shape}, fan_{shape, normal}, normal_{normal} {}
+        : view_{shape}, map_{shape, normal}, normal_{normal} {}
 
     detail::FlatView<S> view_;
-    detail::CosineFan<S> fan_;
+    detail::CosineMap<S> map_;
     Direction<T> normal_;
 };
 

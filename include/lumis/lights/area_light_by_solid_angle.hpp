@@ -235,7 +235,7 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
           rectangle_{shape.in_units().corner, shape.in_units().edge_u, shape.in_units().edge_v},
           solid_angle_{rectangle_.solid_angle()},
           unit_{static_cast<T>(shape.unit) * rectangle_.unit()} {
-        if (!(rectangle_.has_digits() && is_rectangle(shape))) {
+        if (!(rectangle_.has_digits() && detail::is_rectangle(shape))) {
             halves_ = split(Edges{shape.in_units()});
             solid_angle_ = halves_->solid_angle();
         }
@@ -245,18 +245,6 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
     // Takes a copy: compilers keep a whole light in memory if a call refers to any part of it.
     [[nodiscard]] LUMIS_NOINLINE static std::optional<Halves> split(const Edges& edges) noexcept {
         return Halves{edges.corner, edges.edge_u, edges.edge_v, edges.edge_u + edges.edge_v};
-    }
-
-    // Whether the edges are at right angles; up to the rounding of T, unless the reference point is so close by that such a
-    // shear shows.
-    [[nodiscard]] LUMIS_HD static bool is_rectangle(const Shape& shape) noexcept {
-        const auto dot = glm::dot(shape.in_units().edge_u, shape.in_units().edge_v);
-        if (dot == 0) return true;
-        const auto u = real::length(shape.in_units().edge_u), v = real::length(shape.in_units().edge_v);
-        const auto volume =
-            glm::dot(shape.in_units().corner, detail::cross(shape.in_units().edge_u, shape.in_units().edge_v));
-        return std::abs(dot) <= 4 * std::numeric_limits<T>::epsilon() * u * v &&
-               32 * std::abs(volume) >= u * v * real::greater(u, v);
     }
 
     // Two triangles, each from an edge at the corner to the diagonal.

@@ -37,22 +37,14 @@ class CosineFan {
     using Point = HorizonPoint<W>;
 
   public:
-    // Empty where nothing is seen above the horizon.
-    LUMIS_INLINE CosineFan(const FlatShape<Shape>& shape, const Direction<T>& normal) noexcept {
-        // Edge-on, or from a vertex, it subtends nothing.
-        const auto& [corner, edge_u, edge_v] = shape.in_units();
-        const W volume = glm::dot(corner, cross(edge_u, edge_v));
-        if (!(std::abs(volume) > 0)) return;
-        const Polygon polygon{shape, Vector{normal}};
-        if (polygon.size() < 3) return;
-        const auto [nearest, next, apex] = polygon.nearest_to_normal();
-        if (!(apex.cosine > 0)) return;
+    // nearest: of the polygon, at a cosine above 0.
+    LUMIS_INLINE CosineFan(const Polygon& polygon, const typename Polygon::NearestPoint& nearest_point) noexcept {
+        const auto& [nearest, next, apex] = nearest_point;
         closed_ = nearest == Polygon::Nearest::Normal;
         // Around from the vertex after the apex: to where it began, to the vertex before it, or to the one before the apex.
         const int triangles = closed_                             ? polygon.size()
                               : nearest == Polygon::Nearest::Edge ? polygon.size() - 1
                                                                   : polygon.size() - 2;
-        const bool clockwise = volume < 0;  // as the vertices are seen
         const W scale = 1 / apex.cosine;
         auto start = spoke_to(polygon[next], apex, scale);
         Vector to_start = polygon.between(apex, polygon[next]);
@@ -65,7 +57,8 @@ class CosineFan {
                 const BilinearWarp<T> warp{start.at_apex, end.at_apex, start.at_edge, end.at_edge};
                 sum_ += triangle.solid_angle() * warp.mean();
                 // Scaled, so that no square of a component leaves the range of T.
-                const Vector side = clockwise ? cross(to_end, apex.position) : cross(apex.position, to_end);
+                const Vector side =
+                    polygon.is_clockwise() ? cross(to_end, apex.position) : cross(apex.position, to_end);
                 const W length = real::length(side);
                 const Vector beyond = side * real::quotient_where(length > 0, W(1), length);
                 pieces_[size_++] = {triangle, warp, Direction<T>{beyond}, sum_};
@@ -81,25 +74,19 @@ class CosineFan {
 
     [[nodiscard]] LUMIS_HD bool empty() const noexcept { return !(scale_ > 0); }
 
+    // The direction, and its density. Not of an empty fan, as below.
     template <Real R>
-    struct Drawn {
-        Direction<R> direction;
-        R pdf;
-    };
-
-    // Not of an empty fan.
-    template <Real R>
-    [[nodiscard]] LUMIS_INLINE Drawn<R> sample(const glm::vec<2, R>& u) const noexcept {
+    [[nodiscard]] LUMIS_INLINE Sample<Direction<R>, R> sample(const glm::vec<2, R>& u) const noexcept {
         if constexpr (std::floating_point<R>) {
             int i = 0;
             while (i + 1 < size_ && !(u.x < pieces_[i].end)) ++i;
             return sample_of(i, u);
         } else {
-            Drawn<R> drawn = sample_of(0, u);
+            Sample<Direction<R>, R> drawn = sample_of(0, u);
             for (int i = 1; i < size_; ++i) {
                 const auto here = u.x >= pieces_[i - 1].end;
-                const Drawn<R> other = sample_of(i, u);
-                drawn.direction = real::select(here, other.direction, drawn.direction);
+                const Sample<Direction<R>, R> other = sample_of(i, u);
+                drawn.value = real::select(here, other.value, drawn.value);
                 drawn.pdf = real::select(here, other.pdf, drawn.pdf);
             }
             return drawn;
@@ -109,12 +96,12 @@ class CosineFan {
     // w: towards the part of the shape that is above the horizon.
     [[nodiscard]] LUMIS_HD T pdf(const Direction<T>& w) const noexcept {
         const auto& piece = pieces_[piece_of(w)];
-        return piece.warp.weight(within(piece.triangle.invert(w))) * scale_;
+        return piece.warp.weight(within_square(piece.triangle.invert(w))) * scale_;
     }
 
     [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Direction<T>& w) const noexcept {
         const int i = piece_of(w);
-        const glm::vec<2, T> u = pieces_[i].warp.invert(within(pieces_[i].triangle.invert(w)));
+        const glm::vec<2, T> u = pieces_[i].warp.invert(within_square(pieces_[i].triangle.invert(w)));
         return {start_of(i) + u.x * (pieces_[i].end - start_of(i)), u.y};
     }
 
@@ -143,7 +130,7 @@ class CosineFan {
     [[nodiscard]] LUMIS_HD T start_of(int i) const noexcept { return i > 0 ? pieces_[i - 1].end : T(0); }
 
     template <Real R>
-    [[nodiscard]] LUMIS_INLINE Drawn<R> sample_of(int i, const glm::vec<2, R>& u) const noexcept {
+    [[nodiscard]] LUMIS_INLINE Sample<Direction<R>, R> sample_of(int i, const glm::vec<2, R>& u) const noexcept {
         const Piece& piece = pieces_[i];
         // A share may be too small to count beside the others.
         const T start = start_of(i), share = piece.end - start;
@@ -163,11 +150,6 @@ class CosineFan {
             beyond_start = beyond_end;
         }
         return i;
-    }
-
-    // In [0, 1], a NaN too, which is what a w that is no direction inverts to.
-    [[nodiscard]] LUMIS_HD static glm::vec<2, T> within(const glm::vec<2, T>& u) noexcept {
-        return {real::greater(T(0), real::lesser(T(1), u.x)), real::greater(T(0), real::lesser(T(1), u.y))};
     }
 
     Piece pieces_[Polygon::most_vertices];

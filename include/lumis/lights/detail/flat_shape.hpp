@@ -125,4 +125,16 @@ struct FlatShape {
     [[no_unique_address]] std::conditional_t<has_unit, Edges, None> scaled_;
 };
 
+// Whether a parallelogram's edges are at right angles; up to the rounding of T, unless the reference point is so close by that such
+// a shear shows.
+template <std::floating_point T>
+[[nodiscard]] LUMIS_HD bool is_rectangle(const FlatShape<Parallelogram<T>>& shape) noexcept {
+    const auto& [corner, edge_u, edge_v] = shape.in_units();
+    const auto dot = glm::dot(edge_u, edge_v);
+    if (dot == 0) return true;
+    const auto u = real::length(edge_u), v = real::length(edge_v), volume = glm::dot(corner, cross(edge_u, edge_v));
+    return std::abs(dot) <= 4 * std::numeric_limits<T>::epsilon() * u * v &&
+           32 * std::abs(volume) >= u * v * real::greater(u, v);
+}
+
 }  // namespace lumis::LUMIS_ISA::detail

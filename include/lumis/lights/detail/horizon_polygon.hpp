@@ -8,6 +8,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <limits>
+
 namespace lumis::LUMIS_ISA::detail {
 
 // A point of the shape: its coordinates there, so that differences between points lie in its plane and keep their digits; its
@@ -31,7 +33,11 @@ class HorizonPolygon {
     static constexpr int most_vertices = FlatShape<Shape>::is_triangle ? 4 : 5;
 
     LUMIS_INLINE HorizonPolygon(const FlatShape<Shape>& shape, const Vector& normal) noexcept
-        : edges_{shape.in_units()}, normal_{normal} {
+        : edges_{shape.in_units()},
+          normal_{normal},
+          across_{cross(edges_.edge_u, edges_.edge_v)},
+          volume_{glm::dot(edges_.corner, across_)} {
+        if (!(volume_ > 0 || volume_ < 0)) return;
         constexpr int corners = FlatShape<Shape>::is_triangle ? 3 : 4;
         const glm::vec<2, W> at[] = {
             {0, 0}, {1, 0}, corners == 3 ? glm::vec<2, W>{0, 1} : glm::vec<2, W>{1, 1}, {0, 1}};
@@ -49,11 +55,22 @@ class HorizonPolygon {
         }
     }
 
+    // 0 where nothing is above the horizon, or the shape is edge-on or seen from one of its points.
     [[nodiscard]] LUMIS_HD int size() const noexcept { return size_; }
+
+    // How the vertices are passed, as seen from the reference point.
+    [[nodiscard]] LUMIS_HD bool is_clockwise() const noexcept { return volume_ < 0; }
 
     // Counted around.
     [[nodiscard]] LUMIS_HD const Point& operator[](int i) const noexcept {
         return vertices_[i < size_ ? i : i - size_];
+    }
+
+    // Whether it is the whole of a parallelogram, or what a horizon leaves of it that is parallel to an edge.
+    [[nodiscard]] LUMIS_HD bool is_parallelogram() const noexcept {
+        const glm::vec<2, W> d = vertices_[0].at - vertices_[1].at + vertices_[2].at - vertices_[3].at;
+        return size_ == 4 &&
+               real::abs(d.x) + real::abs(d.y) <= 8 * std::numeric_limits<typename Shape::Scalar>::epsilon();
     }
 
     // From one of its points to another.
@@ -75,15 +92,14 @@ class HorizonPolygon {
         for (int i = 1; i < size_; ++i) {
             if (vertices_[i].cosine > nearest.point.cosine) nearest = {Nearest::Vertex, i + 1, vertices_[i]};
         }
-        const Vector across = cross(edges_.edge_u, edges_.edge_v);
-        const W volume = glm::dot(edges_.corner, across), facing = glm::dot(across, normal_);
+        const W facing = glm::dot(across_, normal_);
         bool is_inside = facing > 0 || facing < 0;
         // An edge's own nearest point counts where its cosine is much larger: otherwise it is not worth another triangle.
         W least = nearest.point.cosine * scalar_of<W>(1.1);
         for (int i = 0; i < size_; ++i) {
             const Point &p = vertices_[i], &q = (*this)[i + 1];
             const W side = glm::dot(cross(p.position, between(p, q)), normal_);
-            if (volume > 0 ? side > 0 : side < 0) continue;
+            if (is_clockwise() ? side < 0 : side > 0) continue;
             is_inside = false;
             // How steeply the arc rises at either end.
             const W pq = glm::dot(p.position, q.position);
@@ -126,6 +142,8 @@ class HorizonPolygon {
 
     typename FlatShape<Shape>::Edges edges_;
     Vector normal_;
+    Vector across_;  // normal to the shape
+    W volume_;
     Point vertices_[most_vertices];
     int size_{0};
 };
