@@ -41,7 +41,7 @@ class GgxReflection {
         return D(wm) / (1 + lambda(wo_) + lambda(wi)) / (4 * wo_.z * wi.z);
     }
 
-  private:
+  protected:
     [[nodiscard]] T D(const Direction<T>& wm) const noexcept {
         const T x = wm.x / alpha_.x, y = wm.y / alpha_.y, s = x * x + y * y + wm.z * wm.z;
         return 1 / (std::numbers::pi_v<T> * alpha_.x * alpha_.y * s * s);

@@ -46,7 +46,7 @@ class GgxDielectric {
         const Direction<R> wm = real::divide(along, real::divisor_where(length > 0, length));
         const R cosine = real::greater(real::dot(wo, wm), 0), eta_cos_t = ratio().eta_cos_t(cosine);
         const auto mirrors = u.z < ratio().reflected(cosine, eta_cos_t) || eta_cos_t <= 0;
-        const Direction<R> towards = real::rounded(either_way(mirrors, wo, wm, cosine, eta_cos_t));
+        const Direction<R> towards = real::rounded(scattered(mirrors, wm, cosine, eta_cos_t));
         // What arrives on the wrong side may be drawn otherwise, and so have a density; the zero vector has none.
         const auto arrives = (mirrors && towards.z > 0) || (!mirrors && towards.z < 0 && cosine > 0);
         const Direction<R> wi = real::select(arrives, towards, Direction<R>{R(scalar_of<R>(0))});
@@ -141,16 +141,20 @@ class GgxDielectric {
         return {w.x, w.y, -w.z};
     }
 
-    // wi = a wm - b wo. Mirrored: a = 2 wo.wm, b = 1. Refracted: b = 1 / eta, and a = (wo.wm - eta cos_t) / eta, of which the
-    // difference is extended to a fraction because it cancels.
+    // wm is unit, up to its rounding; refraction into a thinner medium multiplies what that took from it. One step of Newton's
+    // brings wi back to unit length.
     template <Real R>
-    [[nodiscard]] LUMIS_INLINE Direction<R> either_way(const MaskOf<R>& mirrors, const Direction<R>& wo,
-                                                       const Direction<R>& wm, R cosine, R eta_cos_t) const noexcept {
-        const R sum = cosine + eta_cos_t, excess{ratio().excess};
-        const R b = real::select(mirrors, R(scalar_of<R>(1)), real::divide(R(scalar_of<R>(1)), R(ratio().eta)));
-        const R a = real::select(mirrors, 2 * cosine, -b * real::divide(excess, real::divisor_where(sum > 0, sum)));
-        const Direction<R> wi = a * wm - b * wo;
-        // One step of Newton's towards unit length: refraction into a thinner medium multiplies what rounding took from wm.
+    [[nodiscard]] LUMIS_INLINE Direction<R> scattered(const MaskOf<R>& mirrors, const Direction<R>& wm, R cosine,
+                                                      R eta_cos_t) const noexcept {
+        const Direction<R> wo{wo_};
+        const Direction<R> wi = real::either(
+            mirrors, [&]() -> Direction<R> { return 2 * cosine * wm - wo; },
+            [&]() -> Direction<R> {
+                // (wo.wm - eta cos_t) wm - wo, over eta; the difference is extended to a fraction because it cancels.
+                const R sum = cosine + eta_cos_t;
+                const R along = real::divide(R(ratio().excess), real::divisor_where(sum > 0, sum));
+                return real::divide(R(scalar_of<R>(-1)), R(ratio().eta)) * Direction<R>(along * wm + wo);
+            });
         return (scalar_of<R>(1.5) - scalar_of<R>(0.5) * real::dot(wi, wi)) * wi;
     }
 
