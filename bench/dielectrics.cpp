@@ -4,8 +4,6 @@
 #include "subjects.hpp"
 #include "textbook/dielectric.hpp"
 #include <lumis/lumis.hpp>
-#include <lumis/microfacets/ggx_dielectric.hpp>
-#include <lumis/microfacets/smooth_dielectric.hpp>
 
 #include <array>
 #include <cmath>

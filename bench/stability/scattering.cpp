@@ -1,8 +1,6 @@
 // Hemispheres, GGX and dielectrics: densities and what they are made of.
 #include "cases.hpp"
 #include "directions.hpp"
-#include <lumis/microfacets/fresnel.hpp>
-#include <lumis/microfacets/ggx_dielectric.hpp>
 
 #include <algorithm>
 #include <cmath>

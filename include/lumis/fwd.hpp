@@ -94,6 +94,13 @@ template <Real T>
 struct GgxBoundedReflection;
 template <Real T>
 class PerfectReflection;
+template <Real R>
+struct FresnelShares;
+enum class TransportMode;
+template <Real T>
+class GgxDielectric;
+template <Real T>
+class SmoothDielectric;
 
 // lights
 template <Real T>

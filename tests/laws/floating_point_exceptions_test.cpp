@@ -3,8 +3,6 @@
 #include "assertions.hpp"
 #include "exceptions.hpp"
 #include "strategies.hpp"
-#include <lumis/microfacets/ggx_dielectric.hpp>
-#include <lumis/microfacets/smooth_dielectric.hpp>
 #include <lumis/testing/every_heuristic.hpp>
 
 #include <array>

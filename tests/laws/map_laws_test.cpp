@@ -2,7 +2,6 @@
 // carry it away.
 #include "catch.hpp"
 #include "strategies.hpp"
-#include <lumis/microfacets/smooth_dielectric.hpp>
 #include <lumis/testing/laws.hpp>
 
 #include <concepts>

@@ -8,7 +8,6 @@
 #include "../bench/textbook/weights.hpp"
 #include "catch.hpp"
 #include <lumis/lumis.hpp>
-#include <lumis/microfacets/ggx_dielectric.hpp>
 
 #include <cmath>
 #include <cstddef>

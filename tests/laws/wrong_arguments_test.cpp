@@ -5,8 +5,6 @@
 #include "one_dimensional.hpp"
 #include "z_test.hpp"
 #include <lumis/lumis.hpp>
-#include <lumis/microfacets/ggx_dielectric.hpp>
-#include <lumis/microfacets/smooth_dielectric.hpp>
 #include <lumis/testing/agreement.hpp>
 #include <lumis/testing/integration.hpp>
 

@@ -5,8 +5,6 @@
 #include "dielectric_subjects.hpp"
 #include "white_furnace.hpp"
 #include <lumis/lumis.hpp>
-#include <lumis/microfacets/ggx_dielectric.hpp>
-#include <lumis/microfacets/smooth_dielectric.hpp>
 #include <lumis/testing/jacobian.hpp>
 #include <lumis/testing/materials.hpp>
 

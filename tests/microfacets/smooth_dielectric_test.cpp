@@ -3,7 +3,6 @@
 #include "catch.hpp"
 #include <lumis/core/lanes.hpp>
 #include <lumis/lumis.hpp>
-#include <lumis/microfacets/smooth_dielectric.hpp>
 #include <lumis/testing/delta.hpp>
 
 #include <cmath>

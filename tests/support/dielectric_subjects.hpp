@@ -3,7 +3,6 @@
 #pragma once
 
 #include "scattering_subjects.hpp"
-#include <lumis/microfacets/ggx_dielectric.hpp>
 
 #include <glm/geometric.hpp>
 

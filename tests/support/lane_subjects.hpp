@@ -3,8 +3,6 @@
 #pragma once
 
 #include <lumis/lumis.hpp>
-#include <lumis/microfacets/ggx_dielectric.hpp>
-#include <lumis/microfacets/smooth_dielectric.hpp>
 
 #include <glm/geometric.hpp>
 
