@@ -64,9 +64,9 @@ TEMPLATE_TEST_CASE("resampling is unbiased under every heuristic", "[resample]",
     weighed_by(lumis::MaximumHeuristic{});
     weighed_by(lumis::PairwiseWeights{});
     weighed_by(lumis::PartitionWeights{[](T x) { return x > T(0.6) ? 2 : x > T(0.3) ? 1 : 0; }});
-    // A canonical technique that does not cover all, and one that is left out.
+    // A canonical technique that does not cover all, beside another such, and one that is left out.
     check<T>(resample(lumis::PairwiseWeights{}, target, take(2, Interval<T>{T(0.5), 1}), take(3, Ramp<T>{}),
-                      take(2, Interval<T>{0, 1})),
+                      take(2, Interval<T>{0, T(0.3)})),
              f, 4 / 3.0);
     check<T>(resample(lumis::PairwiseWeights{}, target, 6, choose(0, Interval<T>{T(0.5), 1}), choose(0.3, Ramp<T>{}),
                       choose(0.6, Interval<T>{0, 1})),

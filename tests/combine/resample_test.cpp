@@ -18,6 +18,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -143,6 +144,19 @@ TEST_CASE("a target that is 0 where the integrand is not fails an assertion", "[
     std::ignore = resample([](double) { return -1.0; }, take(1, everywhere)).estimate(zero, uniforms);
     std::ignore = resample([](double) { return std::nan(""); }, take(1, everywhere)).estimate(zero, uniforms);
     CHECK(caught.count() == 2);
+}
+
+TEMPLATE_TEST_CASE("a candidate that is next to nothing beside another is not selected by u = 0", "[resample]", float,
+                   double) {
+    using T = TestType;
+    constexpr T tiny = 2 * (std::numeric_limits<T>::min)();
+    const auto target = [](T x) { return x < T(0.5) ? 1 / tiny : tiny; };
+    const auto two = resample(target, take(2, Interval<T>{0, 1}));
+    const auto numbers = [i = 0]() mutable { return i++ == 1 ? T(0.75) : T(0); };
+    const auto s = two.sample(lumis::uniforms_from<T>(numbers));
+    CHECK(s.sample.value == 0);
+    CHECK(s.contribution_weight == T(0.5));
+    CHECK(two.estimate([](T x) { return x; }, lumis::uniforms_from<T>(numbers)) == 0);
 }
 
 // The integrand gets whole samples: the distance to the nearest light, whichever technique drew, its surface, its index.

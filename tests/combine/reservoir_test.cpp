@@ -163,11 +163,11 @@ TEMPLATE_TEST_CASE("what is kept at the ends of weights and uniforms", "[reservo
         CHECK(one.inverse_probability() == 2);
         CHECK(other.inverse_probability() == 2);
     }
-    // A weight beside which all others vanish is kept for certain, and one that vanishes only by u = 0.
+    // A weight beside which all others vanish is kept for certain, and one that vanishes never is.
     Reservoir<int, T> one;
     one.add(1, tiny, T(0));
     CHECK(one.add(2, 1, T(1)));
-    CHECK_FALSE(one.add(3, tiny, std::numeric_limits<T>::epsilon()));
+    CHECK_FALSE(one.add(3, tiny, T(0)));
     T u = 1;
     CHECK_FALSE(one.add_reusing(4, 1, u));
     CHECK(std::abs(u - 1) <= std::numeric_limits<T>::epsilon());

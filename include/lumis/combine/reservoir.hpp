@@ -125,9 +125,10 @@ class Reservoir {
     // Keeps the item of weight `own` with the probability that `part` has of the total, which includes it.
     template <bool reuse, class U>
     LUMIS_INLINE MaskOf<R> select(const Item& item, const Wide& part, const R& own, U& u) noexcept {
-        // Less than 1: what is all of the total is kept for certain.
-        constexpr auto below_one = 1 - std::numeric_limits<scalar_of<Wide>>::epsilon() / 2;
-        const Wide all = total_.value(), chance = real::lesser(static_cast<Wide>(u), Wide(below_one));
+        // Below 1: what is all of the total is kept for certain. Above 0: what is next to nothing of it never is, although u may
+        // be 0, so that inverse_probability() does not overflow.
+        constexpr scalar_of<Wide> least = 0x1p-64f, most = 1 - std::numeric_limits<scalar_of<Wide>>::epsilon() / 2;
+        const Wide all = total_.value(), chance = real::clamp(static_cast<Wide>(u), Wide(least), Wide(most));
         const MaskOf<R> selected = chance * all < part;
         if constexpr (reuse) {
             const Wide share = real::divide(part, real::divisor_where(all > 0, all));
