@@ -151,6 +151,10 @@ template <std::floating_point T>
 class AliasEnvironmentMapView;
 template <class Lights, class Table>
 class LightSet;
+template <class Direction>
+struct ToLight;
+template <class Set>
+class SelectedLight;
 
 // combine
 struct BalanceHeuristic;
@@ -162,6 +166,7 @@ template <class Owner>
 struct PartitionWeights;
 template <std::size_t N>
 struct BalanceWithFactors;
+struct PairwiseWeights;
 template <class S>
 struct Take;
 template <class S>
@@ -194,6 +199,10 @@ template <std::size_t N>
 struct SamplingCosts;
 template <std::size_t N>
 struct AllocationLimits;
+template <class Drawn, Real R>
+struct Resampled;
+template <class Item, Real R>
+class Reservoir;
 
 // statistics
 template <std::floating_point T>

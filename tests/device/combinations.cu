@@ -162,6 +162,36 @@ struct Estimates {
     }
 };
 
+// Candidates of one source, of several under each kind of weights, of lights one by one, and a reservoir merged.
+struct Candidates {
+    static constexpr int size = 7;
+    Parts parts;
+
+    LUMIS_HD void operator()(unsigned index, float* out) const {
+        device::Stream uniforms{index};
+        const auto target = [](const glm::vec3& w) { return 1 + w.x * w.x; };
+        const auto f = [](const glm::vec3& w) { return 1 + w.y * w.y; };
+        const auto by_distance = [](const AnySample auto& s) { return 1 / (1 + s.distance); };
+        const SelectedLight one{LightSet{parts.lights, parts.powers}};
+        const auto both = resample(PairwiseWeights{}, target, take(2, parts.bsdf), take(1, parts.sky),
+                                   take(1, UniformSphere<float>{}));
+        const auto kept = both.sample(uniforms), others = both.sample(uniforms);
+        Reservoir<glm::vec3> merged, other;
+        merged.add(kept.sample.value, kept.contribution_weight, 0.5f);
+        other.add(others.sample.value, others.contribution_weight, 0.5f);
+        merged.merge(other, uniforms.next<1>().x);
+        const float numbers[size] = {
+            resample(target, take(4, parts.sky)).estimate(f, uniforms),
+            resample(target, take(2, parts.bsdf), take(2, parts.sky)).estimate(f, uniforms),
+            resample(target, 4, choose(0.5f, parts.bsdf), choose(0.5f, parts.sky)).estimate(f, uniforms),
+            both.estimate(f, uniforms),
+            resample(by_distance, take(4, one)).estimate(by_distance, uniforms),
+            merged.item().x,
+            merged.inverse_probability()};
+        for (int i = 0; i < size; ++i) out[i] = numbers[i];
+    }
+};
+
 template <class Probe>
 constexpr bool composes_trivially = std::is_trivially_copyable_v<Probe>;
 static_assert(composes_trivially<decltype(multi_sample(PowerHeuristic{}, take(1, std::declval<Parts>().sky),
@@ -216,5 +246,6 @@ int main() {
     good &= device::agrees("mixtures and light sets", Mixtures{here}, Mixtures{there});
     good &= device::agrees("paths", Paths{here}, Paths{there});
     good &= device::agrees("estimates", Estimates{here}, Estimates{there});
+    good &= device::agrees("candidates", Candidates{here}, Candidates{there});
     return good ? 0 : 1;
 }

@@ -120,6 +120,13 @@ void check_estimates(Input& input, const A& a, const B& b) {
     estimate(lumis::BalanceHeuristic{});
     estimate(lumis::PowerHeuristic{});
     estimate(lumis::MaximumHeuristic{});
+    // Weights beyond the largest number are asserted to be none, and count as 0.
+    const auto target = [](const glm::vec<3, T>& w) { return w.x * w.x; };
+    const auto at_target = [&](const glm::vec<3, T>& w) { return target(w) > 0 ? T(1) : T(0); };
+    const T taken = lumis::resample(target, lumis::take(n, a), lumis::take(m, b)).estimate(at_target, uniforms);
+    const T chosen = lumis::resample(lumis::PairwiseWeights{}, target, n, lumis::choose(c, a), lumis::choose(1 - c, b))
+                         .estimate(at_target, uniforms);
+    CHECK(taken >= 0 && chosen >= 0);
     check(input, lumis::Mixture{lumis::choose(c, a), lumis::choose(input.number<T>(), b)});
 }
 

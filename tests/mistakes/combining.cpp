@@ -15,6 +15,7 @@ const CosineHemisphere<float> cosine;
 const UniformHemisphere<float> uniform;
 const PerfectReflection<float> mirror{glm::vec3{0, 0, 1}};
 Uniforms uniforms{std::mt19937{1}};
+const auto even = [](const glm::vec3&) { return 1; };
 
 // The same points, but their density is one per area.
 struct PerArea : UniformHemisphere<float> {
@@ -154,12 +155,31 @@ namespace {
 #else
     (void)VariantStrategy{std::variant<CosineHemisphere<float>, UniformHemisphere<float>>{cosine}};
 #endif
+#ifdef RESAMPLED_MIRROR  // says: a delta strategy has no density to resample
+    (void)resample(even, take(2, mirror));
+#else
+    (void)resample(even, take(2, cosine));
+#endif
 #ifdef POINT_LIGHTS_IN_A_SET  // says: lights of a set are strategies with a density
     const auto lamps = [](std::size_t) { return PointLight{glm::vec3{0, 0, 1}, glm::vec3{0}}; };
 #else
     const auto lamps = [](std::size_t) { return AreaLight{Sphere<float>{{0, 0, 2}, 1}, glm::vec3{0}}; };
 #endif
     (void)LightSet{lamps, table};
+}
+
+[[maybe_unused]] void targets() {
+#ifdef COLOUR_FOR_A_TARGET  // says: a target is a number: of a colour, its luminance
+    const auto target = [](const glm::vec3& w) { return w; };
+#else
+    const auto target = even;
+#endif
+    (void)resample(target, take(2, cosine)).sample(uniforms);
+#ifdef FORGOTTEN_TARGET  // says: a target takes the point
+    (void)resample(BalanceHeuristic{}, take(2, cosine), take(1, uniform)).sample(uniforms);
+#else
+    (void)resample(BalanceHeuristic{}, even, take(2, cosine), take(1, uniform)).sample(uniforms);
+#endif
 }
 
 [[maybe_unused]] void integrands() {

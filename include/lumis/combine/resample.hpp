@@ -329,20 +329,18 @@ class Resampling : public Combination<H, S...> {
 
     template <std::size_t I, Real R, class Drawn>
     [[nodiscard]] LUMIS_INLINE R target_at(const Drawn& sample, const MaskOf<R>& where) const {
-        using Asked = detail::Asked<const Target, Drawn, R, false, I>;
-        constexpr bool is_target =
-            IntegrandOfSamples<const Target, typename Asked::Sample, typename Asked::Scalar, false, I>;
-        if constexpr (!is_target) {
-            detail::require_integrand<const Target, typename Asked::Sample, typename Asked::Scalar, false, I>();
-            return R{};
-        } else {
+        using Asked = typename detail::Asked<const Target, Drawn, R, false, I>::Sample;
+        constexpr bool takes =
+            Takes<const Target, decltype(Asked::value), false, I> || Takes<const Target, Asked, false, I>;
+        static_assert(takes, "a target takes the point, target(x), or the whole sample, target(sample)");
+        if constexpr (takes) {
             const auto target = detail::evaluate_in<false, I, R>(target_, sample, where);
             constexpr bool is_number =
                 std::convertible_to<decltype(target), double> || Real<std::remove_cvref_t<decltype(target)>>;
             static_assert(is_number, "a target is a number: of a colour, its luminance");
             if constexpr (is_number) return static_cast<R>(target);
-            return R{};
         }
+        return R{};
     }
 
     // Whether no uniform is spent on the choice of a technique.
