@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes all of Lumis but testing/ as one header: what <lumis/lumis.hpp> and <lumis/batch/batch.hpp> include.
+"""Writes all of Lumis but testing/ as one header: what <lumis/lumis.hpp>, <lumis/batch/batch.hpp> and <lumis/qmc/sobol.hpp>
+include.
 
     cmake/single_header.py FOLDER/lumis/lumis.hpp
 """
@@ -33,7 +34,7 @@ def main():
     text = ["// Lumis in one header, written by cmake/single_header.py. Its licence:", "//"]
     text += [f"// {line}".rstrip() for line in (ROOT / "LICENSE").read_text().splitlines()]
     text += ["#pragma once", ""]
-    for header in ("lumis/lumis.hpp", "lumis/batch/batch.hpp"):
+    for header in ("lumis/lumis.hpp", "lumis/batch/batch.hpp", "lumis/qmc/sobol.hpp"):
         text += lines_of(header, seen)
     output.parent.mkdir(parents=True, exist_ok=True)
     output.write_text("\n".join(text) + "\n")

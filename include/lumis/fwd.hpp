@@ -2,7 +2,7 @@
 // Next to nothing to compile, and no GLM.
 //
 // Default template arguments belong to the definitions: with this header alone, write `lumis::EnvironmentMap<float>`. What
-// is never spelt out but deduced is not here: Mixture, Reflected, Combination. lumis.hpp defines all the rest.
+// is never spelt out but deduced is not here: Mixture, Reflected, Combination. lumis.hpp and qmc/ define all the rest.
 #pragma once
 
 #include "lumis/core/platform.hpp"
@@ -203,6 +203,10 @@ template <class Drawn, Real R>
 struct Resampled;
 template <class Item, Real R>
 class Reservoir;
+
+// qmc
+template <Real R>
+class Sobol;
 
 // statistics
 template <std::floating_point T>

@@ -1,4 +1,5 @@
-// All of Lumis except batch/ and testing/, which cost compile time and are included by name.
+// All of Lumis except batch/, qmc/ and testing/, which are included by name: batch/ and testing/ cost compile time, and points of
+// a sequence are for hosts without their own.
 #pragma once
 
 // nvcc compiles templates for host and device, and warns where what they are given is for the host only: an integrand, a
