@@ -2,11 +2,13 @@
 #include "assertions.hpp"
 #include "catch.hpp"
 #include <lumis/core/uniforms.hpp>
+#include <lumis/lights/environment_map.hpp>
 #include <lumis/qmc/sobol.hpp>
 #include <lumis/statistics/running_moments.hpp>
 #include <lumis/tables/alias_table.hpp>
 #include <lumis/tables/discrete_table.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -127,6 +129,38 @@ TEST_CASE("an alias table keeps the slope of a table in order while points outnu
     const auto [many_in_order, many_alias] = compare(10'000);
     CHECK(std::abs(many_in_order.slope - -0.55) <= 0.08);
     CHECK(std::abs(many_alias.slope - -0.53) <= 0.08);
+}
+
+TEST_CASE("an alias map loses the slope of a map in order where its texels are as many as the points", "[sobol]") {
+    constexpr int width = 64, height = 32;
+    std::mt19937_64 random{3};
+    std::vector<double> luminance(width * height);
+    for (double& texel : luminance) texel = 0.1 + std::uniform_real_distribution{}(random);
+    const lumis::EnvironmentMap<double> in_order{width, height, luminance};
+    const lumis::AliasEnvironmentMap<double> alias{width, height, luminance};
+    // The cosine about a slanted normal, over the map's own distribution.
+    const auto by = [](const auto& map) {
+        return [&map](auto& points) {
+            const glm::dvec3 w = map.sample(points.template next<2>()).value;
+            return std::max(0.0, 0.6 * w.x + 0.64 * w.y + 0.48 * w.z);
+        };
+    };
+    lumis::RunningMoments<double> answers;
+    for (std::uint64_t randomisation = 100; randomisation < 108; ++randomisation) {
+        lumis::Sobol<double> points{randomisation};
+        double sum = 0;
+        for (std::uint32_t n = 0; n < 1 << 16; ++n) {
+            points.start(n);
+            sum += by(in_order)(points);
+        }
+        answers.add(sum / (1 << 16));
+    }
+    const auto ordered = convergence<lumis::Sobol<double>>(by(in_order), answers.mean()),
+               by_alias = convergence<lumis::Sobol<double>>(by(alias), answers.mean());
+    CHECK(answers.standard_error() <= 0.1 * ordered.error);
+    CHECK(ordered.slope <= -0.9);
+    CHECK(std::abs(by_alias.slope - -0.65) <= 0.1);
+    CHECK(by_alias.error >= 4 * ordered.error);
 }
 
 TEST_CASE("the standard error of independent randomisations is that of their mean", "[sobol]") {

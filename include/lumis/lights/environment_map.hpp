@@ -308,7 +308,8 @@ class EnvironmentMap : public BasicEnvironmentMap<T, detail::GuidedRows, detail:
     [[nodiscard]] EnvironmentMapView<T> view(auto&& place) const { return EnvironmentMapView<T>{*this, place}; }
 };
 
-// Draws and evaluates a little faster in large maps, but scatters neighbouring u.x over the row and has no inverse.
+// Draws and evaluates a little faster in large maps, but takes neighbouring u.x to texels far apart in a row, which slows the
+// convergence of low-discrepancy points (docs/guide.md), and has no inverse.
 template <std::floating_point T = float>
 class AliasEnvironmentMap : public BasicEnvironmentMap<T, detail::AliasRows, detail::Owned> {
     using Base = BasicEnvironmentMap<T, detail::AliasRows, detail::Owned>;
