@@ -31,6 +31,7 @@ STRATEGIES = ("tables/", "directions/", "microfacets/", "lights/")
 # Headers that are built upon a strategy, or upon a surface or shape that users include as well.
 BUILT_UPON = [
     (r"microfacets/(detail/)?ggx_\w+", r"microfacets/(ggx|ggx_vndf|reflected)"),
+    (r"microfacets/(detail/|ggx_|smooth_)dielectric\w*", r"microfacets/(fresnel|transport_mode|ggx_reflection)"),
     (r"lights/(detail/\w+|area_light\w*|image_light|surface\w*|pdf_from_hit)", r"lights/(shapes|surface)"),
     (r"lights/area_light_by_solid_angle", r"lights/area_light"),
     (r"lights/(area_light_by_cosine|surface_light|pdf_from_hit|detail/hit_density)",
