@@ -70,7 +70,7 @@ struct NormalEquations {
         if (!(samples > 0)) return {};
         fit *= 1 / samples;
 
-        // A + ridge = L D L^T.
+        // A + ridge = L D L^T; x is first L^-1 times the right-hand side.
         std::array<std::array<double, K>, K> l{}, l_d{};
         std::array<double, K> inverse_d{};
         std::array<Wide, K> x{};
