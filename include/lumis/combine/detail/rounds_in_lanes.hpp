@@ -16,6 +16,12 @@
 
 namespace lumis::LUMIS_ISA::detail {
 
+template <Real R>
+inline constexpr std::size_t lanes_of = 1;
+template <Real R>
+    requires(!std::floating_point<R>)
+inline constexpr std::size_t lanes_of<R> = R::size;
+
 // The number in one lane of x, which may be a number.
 template <class X>
 [[nodiscard]] LUMIS_INLINE inline auto number_in([[maybe_unused]] std::size_t lane, const X& x) noexcept {
@@ -41,7 +47,7 @@ template <Real R, class Value>
 // Value: what the integrand returns, in lanes of it if R is.
 template <class Value, std::size_t K, Real R>
 class RoundsInLanes {
-    static constexpr std::size_t lanes = sizeof(R) / sizeof(scalar_of<R>);
+    static constexpr std::size_t lanes = lanes_of<R>;
     using Wide = decltype(wide_value_in<R>(0, std::declval<const Value&>()));
 
   public:
