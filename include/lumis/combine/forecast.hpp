@@ -235,7 +235,7 @@ class Forecast {
     // A floor under each technique's share, for what the pilot may have missed: one sample in as many as there were pilot
     // rounds. Without it, four rounds that miss the broad one of two bumps leave it to a Gaussian in the other, at 1e8 times
     // the variance.
-    static constexpr double rounds_to_leave_out = 128;
+    static constexpr double rounds_to_leave_out = 256;
 
     // Calls visit(k, split) for those that the limits and the number of pilot rounds allow.
     template <class Visit>

@@ -37,7 +37,7 @@ struct SamplingCosts {
 template <std::size_t N>
 struct AllocationLimits {
     // Techniques that are known to draw all points where the integrand is not 0. Where one of them takes part, others may be
-    // left out, by 128 pilot rounds or more. Else every technique takes part: what no pilot sample has met must still be drawn.
+    // left out, by 256 pilot rounds or more. Else every technique takes part: what no pilot sample has met must still be drawn.
     // Delta strategies always take part.
     std::array<bool, N> covers{};
 
