@@ -90,6 +90,43 @@ struct Same {
     }
 };
 
+// As wide as each lane has it.
+template <class R>
+struct Interval {
+    using Scalar = R;
+    using Point = R;
+    using Measure = lumis::measure::Lebesgue;
+    static constexpr int dimensions = 1;
+
+    R width;
+
+    [[nodiscard]] lumis::Sample<R, R> sample(const glm::vec<1, R>& u) const noexcept {
+        return {u.x * width, 1 / width};
+    }
+    [[nodiscard]] R pdf(const R& x) const noexcept {
+        return lumis::real::select(x >= 0 && x <= width, R(1 / width), lumis::scalar_of<R>(0));
+    }
+};
+
+TEST_CASE("strategies that are made of lanes are resampled", "[resample][lanes]") {
+    const Four widths = Four::of_lanes([](auto i) { return 1.0 + static_cast<double>(i); });
+    Same source{Four(0.375)};
+    const auto target = [](const auto& x) { return x + 1; };
+    const auto f = [](const auto& x) { return x * x + 1; };
+    const auto estimate = [&](const auto& width, const auto& wide, auto& uniforms) {
+        using R = std::remove_cvref_t<decltype(width)>;
+        const Interval<R> own{width}, same{wide};
+        return resample(lumis::PairwiseWeights{}, target, take(2, own), take(1, same), take(1, own))
+                   .estimate(f, uniforms) +
+               resample(target, 3, choose(0.3, own), choose(0.7, same)).estimate(f, uniforms);
+    };
+    const Four lanes = estimate(widths, Four(5.0), source);
+    auto numbers = lumis::uniforms_from<double>([] { return 0.375; });
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(std::abs(lanes[i] / estimate(widths[i], 5.0, numbers) - 1) <= 1e-14);
+    }
+}
+
 // What an integrand makes of a lane that keeps nothing stays there.
 TEST_CASE("a lane without a candidate adds nothing", "[resample][lanes]") {
     const Same source{Four::of_lanes([](auto i) { return i % 2 ? 0.75 : 0.25; })};

@@ -321,3 +321,36 @@ TEMPLATE_TEST_CASE("optimal weights raise no floating-point exception", "[except
     check(lumis::optimal<V>(lumis::take(1, bsdf), lumis::take(2, light), lumis::take(1, glossy), lumis::take(1, bsdf)));
     check(lumis::optimal<V>(lumis::choose(0.3, bsdf), lumis::choose(0.5, light), lumis::choose(0, light)));
 }
+
+TEMPLATE_TEST_CASE("resampling raises no floating-point exception", "[exceptions]", float, double) {
+    using T = TestType;
+    using V = glm::vec<3, T>;
+    const lumis::AreaLight light{lumis::Parallelogram<T>{V(-1, -1, 1), V(2, 0, 0), V(0, 2, 0)}, V(T(0))};
+    const lumis::CosineHemisphere<T> bsdf;
+    const lumis::UniformSphere<T> sphere;
+    const auto f = [&](const V& w) { return w.z > 0 && light.pdf(w) > 0 ? w.z : T(0); };
+    const auto none = [](const V&) { return T(0); };
+    lumis::Uniforms<std::mt19937, T> source{std::mt19937{2}};
+    CHECK(exceptions_raised_by([&] {
+              for (int i = 0; i < 500; ++i) {
+                  keep(resample(f, lumis::take(2, bsdf), lumis::take(1, light)).estimate(f, source));
+                  keep(resample(f, 3, lumis::choose(0.3, bsdf), lumis::choose(0.3, sphere)).estimate(f, source));
+                  keep(resample(lumis::PairwiseWeights{}, f, lumis::take(2, light), lumis::take(1, bsdf),
+                                lumis::take(1, sphere))
+                           .sample(source)
+                           .contribution_weight);
+                  keep(resample(none, lumis::take(2, bsdf)).sample(source).contribution_weight);
+              }
+          }) == 0);
+    lumis::Reservoir<int, T> kept;
+    CHECK(exceptions_raised_by([&] {
+              for (T u : {T(0), T(0.5), T(1)}) {
+                  for (const T weight : {T(0), std::numeric_limits<T>::denorm_min(), T(1), T(1e30)}) {
+                      kept.add_reusing(0, weight, u);
+                      kept.merge(kept, u);
+                      keep(kept.inverse_probability());
+                      keep(kept.contribution_weight(T(0)));
+                  }
+              }
+          }) == 0);
+}

@@ -40,6 +40,10 @@ concept MayBeTarget = !requires(const Target target) {
     target.strategy;
 };
 
+// A concept: of a function that takes any point, it is not asked whether it takes a sample.
+template <class F, class Drawn, std::size_t I>
+concept TakesDrawn = Takes<F, decltype(Drawn::value), false, I> || Takes<F, Drawn, false, I>;
+
 // How many candidates there are: from every technique its count, or as many of techniques that are selected one by one.
 template <class Scalar, std::size_t N>
 struct TakenCandidates {
@@ -330,8 +334,7 @@ class Resampling : public Combination<H, S...> {
     template <std::size_t I, Real R, class Drawn>
     [[nodiscard]] LUMIS_INLINE R target_at(const Drawn& sample, const MaskOf<R>& where) const {
         using Asked = typename detail::Asked<const Target, Drawn, R, false, I>::Sample;
-        constexpr bool takes =
-            Takes<const Target, decltype(Asked::value), false, I> || Takes<const Target, Asked, false, I>;
+        constexpr bool takes = detail::TakesDrawn<const Target, Asked, I>;
         static_assert(takes, "a target takes the point, target(x), or the whole sample, target(sample)");
         if constexpr (takes) {
             const auto target = detail::evaluate_in<false, I, R>(target_, sample, where);
