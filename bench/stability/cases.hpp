@@ -96,6 +96,12 @@ Measured mixtures(Effort effort);
 template <class T>
 Measured light_sets(Effort effort);
 template <class T>
+Measured pairwise_weights(Effort effort);
+template <class T>
+Measured reservoir_of_many(Effort effort);
+template <class T>
+Measured reservoir_of_unlike(Effort effort);
+template <class T>
 Measured accumulation_of_many(Effort effort);
 template <class T>
 Measured accumulation_with_offset(Effort effort);
