@@ -18,7 +18,7 @@
 namespace {
 
 // Works in double, whatever its users work in.
-struct InDouble {
+struct CosineInDouble {
     using Scalar = float;
     using Point = glm::vec3;
     using Measure = lumis::measure::SolidAngle;
@@ -29,7 +29,7 @@ struct InDouble {
     }
     [[nodiscard]] double pdf(const glm::vec3& w) const noexcept { return w.z > 0 ? w.z * std::numbers::inv_pi : 0; }
 };
-static_assert(lumis::Strategy<InDouble>);
+static_assert(lumis::Strategy<CosineInDouble>);
 
 // A host's sampler that yields doubles.
 struct DoubleUniforms {
@@ -56,7 +56,7 @@ static_assert(lumis::Heuristic<BalanceInDouble, float>);
 
 TEST_CASE("strategies, sources and heuristics that work in another precision", "[converted]") {
     using namespace lumis;
-    const InDouble strategy;
+    const CosineInDouble strategy;
     const CosineHemisphere<float> cosine;
     DoubleUniforms uniforms;
     const auto cos_theta = [](const glm::vec3& w) { return w.z; };
