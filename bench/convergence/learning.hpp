@@ -36,7 +36,7 @@ struct OptimalWeights {
     }
 };
 
-// Each sum is that of `count` estimates by the counts that a pilot advises. The pilot is made anew for each, and is not averaged
+// Each sum is that of `count` estimates by the counts that a pilot advises. A pilot serves all sums of a call, and is not averaged
 // in. What samples and densities cost is measured in the first call, which no study counts.
 template <class F, class... S>
 class AllocatedSamples {
@@ -50,11 +50,10 @@ class AllocatedSamples {
 
     void operator()(std::span<double> sums, std::int64_t count, auto& uniforms) const {
         if (!costs_) costs_ = measured_costs(uniforms);
+        auto plan = new_plan();
+        for (int i = 0; i < pilot_rounds; ++i) (void)plan.add(f_, uniforms);
+        const auto estimator = taking(plan.counts(*costs_, {.covers = covers_}));
         for (double& sum : sums) {
-            auto plan = new_plan();
-            const std::int64_t rounds = std::max<std::int64_t>(4, count / pilots_share);
-            for (std::int64_t i = 0; i < rounds; ++i) (void)plan.add(f_, uniforms);
-            const auto estimator = taking(plan.counts(*costs_, {.covers = covers_}));
             sum = 0;
             for (std::int64_t i = 0; i < count; ++i) sum += estimator.estimate(f_, uniforms);
         }
@@ -63,7 +62,7 @@ class AllocatedSamples {
   private:
     using Counts = std::array<int, size>;
     using Costs = lumis::SamplingCosts<size>;
-    static constexpr std::int64_t pilots_share = 16;  // one round in so many estimates
+    static constexpr int pilot_rounds = 256;  // enough to leave a technique out
 
     [[nodiscard]] auto new_plan() const {
         return std::apply([](const auto&... s) { return lumis::allocate(Heuristic{}, lumis::take(1, s)...); },

@@ -75,8 +75,8 @@ struct Competitor {
     Recipe recipe;
     std::shared_ptr<const void> entrants;
     void (*run_)(const void* entrants, const Recipe&, std::span<double> sums, std::int64_t count, RandomNumbers&);
-    // The estimates of a sum are made together, from points, weights or counts that depend on how many they are: a run of a
-    // length is not the sum of shorter ones, and is measured by itself.
+    // The estimates of a sum are made together, from points or weights that depend on how many they are: a run of a length is not
+    // the sum of shorter ones, and is measured by itself.
     bool is_whole = false;
 
     // Each sum becomes that of `count` estimates.
@@ -188,7 +188,7 @@ struct Problem {
         compete("optimal", true, {"optimal", {}, once_each, {}}, OptimalWeights<F, S...>{f, {techniques.strategy...}},
                 true);
         compete("allocated", true, {"allocated", "balance", {}, {}},
-                AllocatedSamples<F, S...>{f, {techniques.sees_all...}, techniques.strategy...}, true);
+                AllocatedSamples<F, S...>{f, {techniques.sees_all...}, techniques.strategy...});
         return *this;
     }
 

@@ -48,7 +48,7 @@ Timed run(const Competitor& competitor, std::span<double> sums, std::int64_t cou
 double seconds_each(double seconds, const auto& run) {
     for (std::int64_t count = 1;; count *= 2) {
         const double taken = run(count).cpu_seconds;
-        if (taken >= std::min(seconds / 4, 1e-3)) return taken / static_cast<double>(count);
+        if (taken >= std::min(seconds / 2, 1e-3)) return taken / static_cast<double>(count);
     }
 }
 
@@ -64,10 +64,12 @@ std::vector<Length> affordable_lengths(const Competitor& competitor, double seco
     };
     std::vector<Length> result;
     RandomNumbers uniforms{0};
+    std::vector<double> sums(pieces);
+    competitor.run(sums, 1, uniforms);  // what is found out once is found out here
     if (competitor.is_whole) {
         for (const std::int64_t samples : whole_lengths) {
             const double each = seconds_each(seconds, [&](std::int64_t runs) {
-                std::vector<double> sums(static_cast<std::size_t>(runs));
+                sums.resize(static_cast<std::size_t>(runs));
                 return run(competitor, sums, samples, uniforms);
             });
             const double share = seconds / static_cast<double>(whole_lengths.size());
@@ -75,7 +77,6 @@ std::vector<Length> affordable_lengths(const Competitor& competitor, double seco
         }
         return result;
     }
-    std::vector<double> sums(pieces);
     const double each =
         seconds_each(seconds, [&](std::int64_t count) { return run(competitor, sums, count, uniforms); });
     std::int64_t samples = at_least(1, seconds / each);

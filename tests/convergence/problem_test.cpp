@@ -40,7 +40,7 @@ TEST_CASE("a file in the folder of problems is found and measured") {
         CHECK(std::abs(series.pooled.bias_z) <= 5);
         CHECK(verdict(series) == Verdict::Converges);
         CHECK(series.samples.size() == series.runs.front().size());
-        CHECK(series.is_whole == (series.name == "sobol" || series.name == "optimal" || series.name == "allocated"));
+        CHECK(series.is_whole == (series.name == "sobol" || series.name == "optimal"));
     }
     CHECK(study.series.size() == 35);
     CHECK(names.size() == 35);
