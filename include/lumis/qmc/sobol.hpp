@@ -18,8 +18,10 @@ namespace lumis::LUMIS_ISA {
 // yields its coordinates, N at a time. Sobol<Lanes<T, L>> yields L points at once, index to index + L - 1, one in each lane.
 //
 // Each point is uniform over the lattice of T (2^24 values in float, 2^53 in double; never 1), so that the mean over any points of
-// one randomisation is unbiased. Its points depend on each other: the error of the mean is seen from several randomisations, not
-// from the spread of the estimates. Take counts that are powers of two: each aligned run of 2^k points is stratified.
+// one randomisation is unbiased. Its points depend on each other. The error of the mean is therefore seen from several
+// randomisations, not from the spread of the estimates; and what needs independent samples to learn from without bias, as
+// cross-fitted weights do, takes what it has learnt from another randomisation. Take counts that are powers of two: each aligned run
+// of 2^k points is stratified.
 //
 // The coordinates of one next<N>() belong to one set of four, and so do those of the next ones while they fit into it: they are
 // stratified jointly. Sets are independent: what an integrand owes to coordinates of two sets together converges as with random
