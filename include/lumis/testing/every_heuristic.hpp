@@ -127,7 +127,8 @@ inline const Factors<2> factors_of_two{{{1, 1}, {1, 3}, {3, 1}, {0, 1}, {3, 0}},
                                        {{0.5, 0.5}, {0.2, 0.8}, {0, 1}, {1, 0}}};
 inline const Factors<2> factors_of_two_with_second{{{1, 1}, {1, 3}, {3, 1}, {0, 1}}, {{0.5, 0.5}, {0.2, 0.8}, {0, 1}}};
 
-// f is integrated by multi_sample and one_sample over strategies, and called as by them.
+// f is integrated by multi_sample and one_sample over strategies, and called as by them. BalanceWithFactors is tested as well,
+// with the factors 1, 2, ... of the strategies.
 template <class F, class Answer, class First, class... Rest>
     requires Composable<First, Rest...>
 [[nodiscard]] UnbiasedResult unbiased_under_every_heuristic(const F& f, const Answer& answer,
@@ -135,10 +136,10 @@ template <class F, class Answer, class First, class... Rest>
                                                             const HeuristicsOptions& options, const First& first,
                                                             const Rest&... rest) {
     using Scalar = typename First::Scalar;
-    const std::size_t tests = number_of_heuristics * (factors.counts.size() + factors.probabilities.size());
+    const std::size_t tests = (number_of_heuristics + 1) * (factors.counts.size() + factors.probabilities.size());
     detail::WorstOfFamily worst{answer, options, tests};
     const auto run = [&]<std::size_t... I>(std::index_sequence<I...>) {
-        for_each_heuristic([&](const auto& heuristic, const char* name) {
+        const auto test_both_models = [&](const auto& heuristic, const char* name) {
             const auto test = [&](const std::string& factor, const auto& estimator) {
                 worst.template test<Scalar>(name + factor,
                                             [&](auto& uniforms) { return estimator.estimate(f, uniforms); });
@@ -151,7 +152,9 @@ template <class F, class Answer, class First, class... Rest>
                 test(", probabilities " + detail::list(c),
                      one_sample(heuristic, choose(c[I], std::get<I>(strategies))...));
             }
-        });
+        };
+        for_each_heuristic(test_both_models);
+        test_both_models(BalanceWithFactors{static_cast<double>(I + 1)...}, "balance with factors");
     };
     run(std::index_sequence_for<First, Rest...>{});
     return worst.result();
