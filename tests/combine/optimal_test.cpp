@@ -206,6 +206,25 @@ TEMPLATE_TEST_CASE("the scale of densities does not matter", "[optimal]", float,
     }
 }
 
+TEST_CASE("shares of densities of any kind", "[optimal]") {
+    using Two = std::array<double, 2>;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const auto q = [](Two densities, Two factors) { return lumis::detail::shares(densities, factors).q; };
+    CHECK(q({1, 3}, {1, 1}) == Two{0.25, 0.75});
+    CHECK(q({1, 3}, {1, 0}) == Two{1, 3});
+    CHECK(q({1e-310, 3e-310}, {1, 1})[1] == Approx(0.75));
+    CHECK(q({1.5e308, 1.5e308}, {1, 1}) == Two{0.5, 0.5});
+    CHECK(q({0, 0}, {1, 1}) == Two{0, 0});
+    // The policy of heuristics.
+    CHECK(q({infinity, 1}, {2, 1}) == Two{0.5, 0});
+    CHECK(q({infinity, infinity}, {2, 1}) == Two{0.25, 0.5});
+    CHECK(lumis::detail::shares(Two{infinity, 1}, Two{1, 1}).inverse == 0);
+    CHECK(std::isfinite(lumis::detail::shares(Two{5e-324, 0}, Two{1, 1}).inverse));
+    const CaughtAssertions caught;
+    CHECK(q({std::numeric_limits<double>::quiet_NaN(), 1}, {1, 1}) == Two{0, 0});
+    CHECK(caught.count() == 1);
+}
+
 TEST_CASE("a round that is not finite is counted and left out", "[optimal]") {
     CountingUniforms<double> uniforms;
     auto best = optimal(take(1, everywhere), take(1, above));
