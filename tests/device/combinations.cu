@@ -54,6 +54,7 @@ struct Plans {
             sum += plan.add(f, uniforms);
             sum += optimum.add(f, uniforms);
         }
+        plan.merge(plan);
         out[0] = sum;
         out[1] = static_cast<float>(plan.forecast().multi_sample_variance({2, 1}));
         out[2] = static_cast<float>(optimum.forecast().one_sample_variance({2, 1}));

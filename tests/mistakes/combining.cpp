@@ -234,6 +234,12 @@ namespace {
     } two_types;
 #endif
     (void)reflected.estimate(two_types, uniforms);
+#ifdef PLAN_FOR_A_PARTITION  // says: an allocation weighs by densities
+    const auto owner = PartitionWeights{[](const glm::vec3& w) { return w.z > 0.5f ? 0 : 1; }};
+#else
+    const BalanceHeuristic owner;
+#endif
+    (void)allocate(owner, take(1, cosine), take(1, uniform));
 }
 
 }  // namespace

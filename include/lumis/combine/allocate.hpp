@@ -8,6 +8,7 @@
 #include "lumis/combine/detail/pilot_moments.hpp"
 #include "lumis/combine/detail/rounds_in_lanes.hpp"
 #include "lumis/combine/forecast.hpp"
+#include "lumis/core/assert.hpp"
 #include "lumis/core/detail/for_each_index.hpp"
 #include "lumis/core/detail/in_lanes.hpp"
 #include "lumis/core/platform.hpp"
@@ -79,7 +80,9 @@ class Allocation : private Combination<BalanceHeuristic, S...> {
     LUMIS_HD explicit constexpr Allocation(const H& heuristic, Take<S>&&... techniques)
         : Base{BalanceHeuristic{}, {static_cast<Scalar>(techniques.count)...}, std::move(techniques)...},
           heuristic_{heuristic},
-          counts_{techniques.count...} {}
+          counts_{techniques.count...} {
+        LUMIS_ASSERT(real::largest_of(std::array{-techniques.count...}) < 0);
+    }
 
     // A pilot round: draws as many samples of each technique as was given to allocate, and returns the estimate that they make,
     // by the balance heuristic. f is called as by MultiSample::estimate. norm(f(x)) is the number whose variance counts; it may
@@ -92,6 +95,9 @@ class Allocation : private Combination<BalanceHeuristic, S...> {
         using First = typename Base::template Nth<0>;
         using Value = decltype(this->template draw<0, R>(f, detail::next_for<First, R>(uniforms)));
         Value sum = zero<Value>::value();
+        static_assert(std::invocable<Norm&, decltype(detail::value_in<R>(0, sum))>,
+                      "what is neither a number nor a colour of three components comes with a norm: "
+                      "add(f, uniforms, norm)");
         constexpr std::size_t lanes = sizeof(R) / sizeof(Scalar);
         const auto add_up = [&](const Value& value) { sum = Value(sum + value); };
         detail::for_each_index<size>([&](auto i) {
@@ -128,10 +134,10 @@ class Allocation : private Combination<BalanceHeuristic, S...> {
     // As if the rounds of `other` had been added here: another thread's, for the same integral.
     LUMIS_HD void merge(const Allocation& other) noexcept {
         sums_.merge(other.sums_);
-        for (std::size_t d = 0; d < delta_sums_.size(); ++d) {
+        detail::for_each_index<size - smooth>([&](auto d) {
             delta_sums_[d].first += other.delta_sums_[d].first;
             delta_sums_[d].second += other.delta_sums_[d].second;
-        }
+        });
         rounds_ += other.rounds_;
     }
 
