@@ -4,8 +4,9 @@
 //
 //     const AreaLight<Triangle<float>, ByCosine> light{triangle, point, normal};
 //
-// See detail/cosine_fan.hpp for how. Its density, which inverts the map, takes ten times as long as that by solid angle: where a light
-// is far away, and so at nearly one cosine, BySolidAngle does as well.
+// See detail/cosine_map.hpp for how. To make one and draw from it takes twice as long as BySolidAngle, three times where the normal
+// points at the light; its density, which inverts the map, ten times. Where a light is far away, and so at nearly one cosine,
+// BySolidAngle does as well.
 #pragma once
 
 #include "lumis/core/platform.hpp"

@@ -88,17 +88,16 @@ class HorizonPolygon {
     };
     // Of a polygon that has vertices.
     [[nodiscard]] LUMIS_INLINE NearestPoint nearest_to_normal() const noexcept {
-        NearestPoint nearest{Nearest::Vertex, 1, vertices_[0]};
-        for (int i = 1; i < size_; ++i) {
-            if (vertices_[i].cosine > nearest.point.cosine) nearest = {Nearest::Vertex, i + 1, vertices_[i]};
-        }
+        int highest = 0;
+        for (int i = 1; i < size_; ++i) highest = vertices_[i].cosine > vertices_[highest].cosine ? i : highest;
+        NearestPoint nearest{Nearest::Vertex, highest + 1, vertices_[highest]};
         const W facing = glm::dot(across_, normal_);
         bool is_inside = facing > 0 || facing < 0;
         // An edge's own nearest point counts where its cosine is much larger: otherwise it is not worth another triangle.
         W least = nearest.point.cosine * scalar_of<W>(1.1);
         for (int i = 0; i < size_; ++i) {
             const Point &p = vertices_[i], &q = (*this)[i + 1];
-            const W side = glm::dot(cross(p.position, between(p, q)), normal_);
+            const W side = glm::dot(glm::cross(p.position, between(p, q)), normal_);
             if (is_clockwise() ? side < 0 : side > 0) continue;
             is_inside = false;
             // How steeply the arc rises at either end.
