@@ -172,8 +172,13 @@ void fuzz_strategies(Input& input, unsigned kind) {
             return check(input, lumis::GgxBoundedReflection<T>{any_direction<T>(input), any_alpha()});
         case 7:
             return check(input, lumis::Reflected{any_direction<T>(input), lumis::CosineHemisphere<T>{}});
-        case 8:
-            return check(input, lumis::PerfectReflection<T>{any_direction<T>(input)});
+        case 8: {
+            const V wo = any_direction<T>(input);
+            const T eta = input.number<T>();
+            check(input, lumis::GgxDielectric<T>{wo, any_alpha(), eta});
+            check(input, lumis::SmoothDielectric<T>{wo, eta});
+            return check(input, lumis::PerfectReflection<T>{wo});
+        }
         case 9:
             return check(input, lumis::PointLight<T>{numbers(), numbers()}, Value::UnitDirection);
         case 10:

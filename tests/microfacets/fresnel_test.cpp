@@ -86,6 +86,13 @@ TEMPLATE_TEST_CASE("light from below meets the reciprocal index", "[fresnel]", f
     CHECK(lumis::fresnel_dielectric(T(-0.7), T(1.5)) == 1);  // beyond the critical angle, of cosine 0.745
     for (const T cosine : {T(1), T(0.5), T(0), T(-0.5)}) CHECK(lumis::fresnel_dielectric(cosine, T(1)) == 0);
     for (const T eta : {T(1.5), T(0.5), T(1e4)}) CHECK(lumis::fresnel_dielectric(T(0), eta) == Approx(1));
+    // Light along the boundary, the square of whose cosine is no normal number.
+    const T along = std::sqrt(std::numeric_limits<T>::min()) / 4;
+    for (const T eta : {T(1), T(1.5), T(0.5), 1 - std::numeric_limits<T>::epsilon()}) {
+        const auto shares = lumis::fresnel_shares(along, eta);
+        CHECK((shares.reflected >= 0 && shares.reflected <= 1 && shares.transmitted >= 0 && shares.transmitted <= 1));
+        CHECK((lumis::fresnel_conductor(along, eta, along) >= 0 && lumis::fresnel_conductor(along, eta, along) <= 1));
+    }
 }
 
 TEST_CASE("the average reflectance of glass", "[fresnel]") {

@@ -7,6 +7,7 @@
 #include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 
+#include <limits>
 #include <type_traits>
 
 namespace lumis::LUMIS_ISA {
@@ -20,6 +21,18 @@ struct FresnelShares {
 };
 
 namespace detail {
+
+// 1 / x for a squared length; 0 for one too small to be a normal number, of light along the boundary.
+template <Real R>
+[[nodiscard]] LUMIS_INLINE inline R reciprocal_or_zero(R x) noexcept {
+    return real::quotient_where(x >= (std::numeric_limits<R>::min)(), R(scalar_of<R>(1)), x);
+}
+
+// A share, which rounding may make more than 1; NaN stays.
+template <Real R>
+[[nodiscard]] LUMIS_INLINE inline R at_most_one(R share) noexcept {
+    return real::lesser(share, scalar_of<R>(1));
+}
 
 // A boundary as light meets it. eta: the index on the other side over the one on this side; excess: eta^2 - 1, given
 // apart because it cancels.
@@ -50,17 +63,14 @@ struct IndexRatio {
         const R r_s = real::divide(R(excess), real::divisor_where(s > 0, s));
         const R r_p = real::divide(R(excess * brewster), real::divisor_where(p > 0, p));
         const auto is_total = eta_cos_t <= 0 && excess < 0;
-        return real::select(is_total, R(scalar_of<R>(1)), scalar_of<R>(0.5) * (r_s * r_s + r_p * r_p));
+        return real::select(is_total, R(scalar_of<R>(1)), at_most_one(scalar_of<R>(0.5) * (r_s * r_s + r_p * r_p)));
     }
 
     // 1 - r_s^2 and 1 - r_p^2, each a fraction of the same divisors, without the difference.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_INLINE R transmitted(R cos_i, R eta_cos_t) const noexcept {
         const R s = cos_i + eta_cos_t, p = eta * cos_i + real::divide(eta_cos_t, R(eta));
-        const R s2 = s * s, p2 = p * p;
-        const R both =
-            real::quotient_where(s2 > 0, R(scalar_of<R>(1)), s2) + real::quotient_where(p2 > 0, R(scalar_of<R>(1)), p2);
-        return 2 * cos_i * eta_cos_t * both;
+        return at_most_one(2 * cos_i * eta_cos_t * (reciprocal_or_zero(R(s * s)) + reciprocal_or_zero(R(p * p))));
     }
 };
 
@@ -115,9 +125,8 @@ template <Real R>
     const R s = detail::squared(R(c + u)) + v * v;
     const R p = detail::squared(R((n2 + 1) * c + u)) + detail::squared(R(m2 * c + v));
     const R brewster = detail::squared(R((n2 + 2) * c * c - 1)) + detail::squared(R(m2 * c * c));
-    const R in_s = real::quotient_where(s > 0, R(scalar_of<R>(1)), s);
-    const R in_p = real::quotient_where(p > 0, R(scalar_of<R>(1)), p);
-    return scalar_of<R>(0.5) * excess * (in_s * in_s + brewster * in_p * in_p);
+    const R in_s = detail::reciprocal_or_zero(s), in_p = detail::reciprocal_or_zero(p);
+    return detail::at_most_one(scalar_of<R>(0.5) * excess * (in_s * in_s + brewster * in_p * in_p));
 }
 
 }  // namespace lumis::LUMIS_ISA
