@@ -82,6 +82,10 @@ bool check_microfacets() {
     good &= check("GGX bounded reflection", GgxBoundedReflection<float>{wo, alpha});
     good &= check("GGX classical reflection", Reflected<GgxNdf<float>>{wo, GgxNdf<float>{alpha}});
     good &= check("perfect reflection", PerfectReflection<float>{wo});
+    good &= check("rough glass", GgxDielectric<float>{wo, alpha, 1.5f});
+    good &= check("rough glass from below", GgxDielectric<float>{-wo, alpha, 1.5f});
+    good &= check("smooth glass", SmoothDielectric<float>{wo, 1.5f});
+    good &= check("smooth glass from below", SmoothDielectric<float>{-wo, 1.5f});
     return good;
 }
 
