@@ -74,7 +74,4 @@ class SmoothDielectric {
     T reflectance_{0}, transmittance_{0};
 };
 
-template <class T, class Index>
-SmoothDielectric(const glm::vec<3, T>&, Index) -> SmoothDielectric<T>;
-
 }  // namespace lumis::LUMIS_ISA
