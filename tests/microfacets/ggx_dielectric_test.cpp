@@ -287,6 +287,22 @@ TEMPLATE_TEST_CASE("where a boundary is none, or wo lies in it, nothing is drawn
     CHECK(caught.count() > 0);
 }
 
+TEMPLATE_TEST_CASE("rough glass in a frame and in a mixture", "[ggx_dielectric]", float, double) {
+    using T = TestType;
+    const lumis::GgxDielectric<T> glass{glm::vec<3, T>(direction(-0.8, 1)), 0.3, 1.5};
+    const lumis::Frame<T> frame{glm::vec<3, T>(glm::normalize(glm::dvec3{1, -2, 0.5}))};
+    const auto framed = lumis::in_frame(frame, glass);
+    const lumis::Mixture mixture{lumis::choose(0.5, glass), lumis::choose(0.5, lumis::UniformSphere<T>{})};
+    laws::AgreementOptions options;
+    options.samples = 1000;
+    options.rounding = 16;
+    options.length = 6;
+    for (const auto& law : {laws::agreement(framed, options), laws::agreement(mixture, options)}) {
+        INFO(law.message);
+        CHECK(law.passed);
+    }
+}
+
 TEMPLATE_TEST_CASE("nearly smooth glass scatters as smooth glass does", "[ggx_dielectric]", float, double) {
     using T = TestType;
     for (const double cosine : {0.8, -0.9, -0.5}) {

@@ -59,9 +59,10 @@ class GgxDielectric {
     }
 
     // Radiance towards wo per unit of irradiance from wi, reflected or transmitted, without a cosine. In the mode Importance
-    // the same for power: wo is where it comes from. Shadowing is height-correlated where light is reflected. Where it is
-    // transmitted, shadowing is separable, G1(wo) G1(wi), as Walter et al. 2007 have it: heights do not correlate across the surface.
-    // f(wo, wi) / n^2 is reciprocal, with the index n on the side of wo.
+    // the same for power: wo is where it comes from. f(wo, wi) / n^2 is reciprocal, with the index n on the side of wo.
+    // Shadowing is height-correlated where light is reflected. Where it is transmitted, it is separable, G1(wo) G1(wi), as
+    // Walter et al. 2007 have it. Heights are correlated there too, the other way, which would transmit a little less: the G2
+    // would be the beta function B(1 + Lambda(wo), 1 + Lambda(wi)), Heitz et al. 2016.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD R bsdf(const Direction<R>& wi, TransportMode mode = TransportMode::Radiance) const noexcept {
         const Direction<R> w = interface_.mirrored(wi);
@@ -75,8 +76,9 @@ class GgxDielectric {
             });
     }
 
-    // What a sample is worth, bsdf(wi) |wi.z| / pdf(wi), without forming D: from 0 to 1, or to the squared index of wo's side
-    // over that of wi's side where radiance is carried and wi is on the other side. 0 where pdf is.
+    // What a sample is worth, bsdf(wi) |wi.z| / pdf(wi), without forming D or the reflectance: from 0 to 1, or to the squared
+    // index of wo's side over that of wi's side where radiance is carried and wi is on the other side. 0 where no normal
+    // refracts wo into wi.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD R weight(const Direction<R>& wi,
                                     TransportMode mode = TransportMode::Radiance) const noexcept {
