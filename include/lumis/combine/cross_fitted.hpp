@@ -1,6 +1,9 @@
 // The estimate of an integral from rounds of samples with optimal weights, without bias. Weights from the very samples that
 // they weigh are biased, by as much as 8 % of the integral at four rounds. So the rounds are dealt out to folds, and each fold
 // takes its weights from the others (cross-fitting: Chernozhukov et al. 2018, "Double/debiased machine learning").
+//
+// Rounds have to be independent of each other. Those drawn from low-discrepancy points of one randomisation are not: one fold's
+// points tell of another's, and the estimate is biased. Such rounds take weights from another randomisation: estimate(alpha).
 #pragma once
 
 #include "lumis/combine/detail/fold.hpp"
