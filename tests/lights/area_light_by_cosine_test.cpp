@@ -30,7 +30,7 @@ auto light(const Shape& shape, const lumis::Direction<typename Shape::Scalar>& n
 template <class T>
 constexpr lumis::Direction<T> up{T(0), T(0), T(1)};
 
-// Of the irradiance, normal +z, by n x n midpoints of the uniforms: mean, and variance over the squared mean.
+// Irradiance, normal +z, by n x n midpoints of the uniforms: mean, and variance over the squared mean.
 struct Estimated {
     double mean, relative_variance;
 };
@@ -171,6 +171,27 @@ TEMPLATE_TEST_CASE("lights by cosine that are not seen", "[area_light_by_cosine]
     nothing("on a line", a, b, b + (b - a), zero, up<T>);
     nothing("NaN vertex", a, b, {nan, T(0), T(1)}, zero, up<T>);
     nothing("infinite vertex", a, b, {T(0), inf, T(1)}, zero, up<T>);
+}
+
+// Next to the horizon's plane the signs of heights are those of their rounding.
+TEMPLATE_TEST_CASE("lights by cosine that lie on the horizon", "[area_light_by_cosine]", float, double) {
+    using T = TestType;
+    polygons::Random random{5};
+    for (int i = 0; i < 3000; ++i) {
+        const glm::dvec3 normal = random.direction();
+        const lumis::Frame<double> frame{normal};
+        const auto level = [&] { return frame.to_world(glm::dvec3{random(), random(), 1e-16 * random()}); };
+        const lumis::Parallelogram<T> shape{glm::vec<3, T>(level()), glm::vec<3, T>(level()), glm::vec<3, T>(level())};
+        const lumis::Triangle<T> triangle{shape.corner, shape.corner + shape.edge_u, shape.corner + shape.edge_v};
+        const lumis::Direction<T> unit(normal);
+        const auto check = [&](const auto& strategy) {
+            const auto law = laws::stays_finite(strategy, 1);
+            INFO(i << ": " << law.message);
+            CHECK(law.passed);
+        };
+        check(light(shape, unit));
+        check(light(triangle, unit));
+    }
 }
 
 TEMPLATE_TEST_CASE("lights by cosine stay finite at any scale", "[area_light_by_cosine]", float, double) {

@@ -42,7 +42,7 @@ struct WithoutParameters {
     }
 };
 
-// By the half-angle.
+// Made of the half-angle.
 struct Cone {
     static constexpr std::size_t parameters = 1;
     template <class R>
@@ -60,7 +60,7 @@ struct Cone {
     }
 };
 
-// By wo and the mean cosine.
+// Made of wo and the mean cosine.
 struct HenyeyGreenstein {
     static constexpr std::size_t parameters = 4;
     template <class R>
@@ -81,7 +81,7 @@ struct HenyeyGreenstein {
     }
 };
 
-// By the direction of its centre, and the half-angle.
+// Made of the direction of its centre, and the half-angle.
 struct Sun {
     static constexpr std::size_t parameters = 4;
     template <class R>

@@ -38,7 +38,7 @@ class CosineMap {
     }
 
     // Where nothing is seen above the horizon.
-    [[nodiscard]] LUMIS_HD bool empty() const noexcept { return !fan_ && !is_rectangle(); }
+    [[nodiscard]] LUMIS_HD bool empty() const noexcept { return !fan_ && !has_rectangle(); }
 
     // The direction, and its density. Not of an empty one, as below.
     template <Real R>
@@ -65,7 +65,7 @@ class CosineMap {
     }
 
   private:
-    [[nodiscard]] LUMIS_HD bool is_rectangle() const noexcept {
+    [[nodiscard]] LUMIS_HD bool has_rectangle() const noexcept {
         if constexpr (is_triangle) {
             return false;
         } else {

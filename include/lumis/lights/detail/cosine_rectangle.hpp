@@ -31,7 +31,7 @@ class CosineRectangle {
         return nearest.point.cosine <= scalar_of<W>(1.3) * highest;
     }
 
-    // Of one that fits. Empty where the spherical rectangle has no digits.
+    // The polygon fits. Empty where the spherical rectangle has no digits.
     LUMIS_INLINE CosineRectangle(const Polygon& polygon, const typename Polygon::NearestPoint& nearest) noexcept
         : CosineRectangle{polygon, 1 / nearest.point.cosine, first_corner(polygon)} {}
 

@@ -38,11 +38,13 @@ class HorizonPolygon {
           across_{cross(edges_.edge_u, edges_.edge_v)},
           volume_{glm::dot(edges_.corner, across_)} {
         if (!(volume_ > 0 || volume_ < 0)) return;
-        constexpr int corners = FlatShape<Shape>::is_triangle ? 3 : 4;
-        const glm::vec<2, W> at[] = {
-            {0, 0}, {1, 0}, corners == 3 ? glm::vec<2, W>{0, 1} : glm::vec<2, W>{1, 1}, {0, 1}};
-        W heights[corners];
-        for (int i = 0; i < corners; ++i) heights[i] = glm::dot(position_at(at[i]), normal);
+        constexpr bool is_triangle = FlatShape<Shape>::is_triangle;
+        constexpr int corners = is_triangle ? 3 : 4;
+        const glm::vec<2, W> at[] = {{0, 0}, {1, 0}, is_triangle ? glm::vec<2, W>{0, 1} : glm::vec<2, W>{1, 1}, {0, 1}};
+        // Summed so that opposite corners are never both above and the other two both below, whatever is rounded.
+        const W height = glm::dot(edges_.corner, normal), rise_u = glm::dot(edges_.edge_u, normal),
+                rise_v = glm::dot(edges_.edge_v, normal), rise = is_triangle ? rise_v : real::rounded(rise_u + rise_v);
+        const W heights[] = {height, height + rise_u, height + rise, height + rise_v};
         for (int i = 0; i < corners; ++i) {
             const int k = i + 1 < corners ? i + 1 : 0;
             const bool above = heights[i] > 0, next_above = heights[k] > 0;
@@ -73,7 +75,7 @@ class HorizonPolygon {
                real::abs(d.x) + real::abs(d.y) <= 8 * std::numeric_limits<typename Shape::Scalar>::epsilon();
     }
 
-    // From one of its points to another.
+    // The way from one of its points to another.
     [[nodiscard]] LUMIS_INLINE Vector between(const Point& from, const Point& to) const noexcept {
         const glm::vec<2, W> d = to.at - from.at;
         return d.x * edges_.edge_u + d.y * edges_.edge_v;
@@ -86,7 +88,7 @@ class HorizonPolygon {
         int next;
         Point point;
     };
-    // Of a polygon that has vertices.
+    // The polygon has vertices.
     [[nodiscard]] LUMIS_INLINE NearestPoint nearest_to_normal() const noexcept {
         int highest = 0;
         for (int i = 1; i < size_; ++i) highest = vertices_[i].cosine > vertices_[highest].cosine ? i : highest;
@@ -136,6 +138,7 @@ class HorizonPolygon {
     }
 
     LUMIS_INLINE void add(const glm::vec<2, W>& at, W height) noexcept {
+        if (size_ == most_vertices) return;  // under -ffast-math
         vertices_[size_++] = measured(Point{at, position_at(at), height});
     }
 
