@@ -151,7 +151,7 @@ template <std::floating_point T>
 class AliasEnvironmentMapView;
 template <class Lights, class Table>
 class LightSet;
-template <class Direction>
+template <class Point>
 struct ToLight;
 template <class Set>
 class SelectedLight;

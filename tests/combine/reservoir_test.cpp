@@ -149,7 +149,7 @@ TEMPLATE_TEST_CASE("what is kept at the ends of weights and uniforms", "[reservo
         CHECK(one.item() == 3);
         CHECK(one.weight() == tiny);
         CHECK(one.inverse_probability() == 1);
-        CHECK(one.contribution_weight(tiny / 4) == 4);
+        CHECK(one.contribution_weight(tiny * 4) == T(0.25));
         CHECK(one.contribution_weight(0) == 0);
         CHECK(one.count() == 4);
     }

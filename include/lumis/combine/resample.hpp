@@ -272,9 +272,9 @@ class Resampling : public Combination<H, S...> {
     Candidates candidates_;
 };
 
-// target(x), or target(sample), is any number from 0 on: an estimate of what the integrand is, cheap enough to be asked for at
-// every candidate. It must be positive wherever the integrand is not 0. It is kept by value. What the target's values lack of the
-// integrand's shape remains as variance, so a target without shadows does for integrands with few.
+// target(x), or target(sample), is any number from 0 on, positive wherever the integrand is not 0, and cheap: it is asked for at
+// every candidate. The nearer it is in proportion to the integrand, the less variance remains; without shadows it does well where
+// few things hide the lights. It is kept by value.
 //
 // heuristic: BalanceHeuristic{}, which is the default, PairwiseWeights{}, or another Heuristic; it weighs candidates of several
 // techniques among each other. With balance a candidate asks all techniques for their densities.

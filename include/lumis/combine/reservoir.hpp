@@ -28,6 +28,10 @@ template <class Item>
     }
 struct WeightOf<Item> : std::type_identity<std::remove_cvref_t<decltype(std::declval<const Item&>().pdf)>> {};
 
+// What decides among weights of type R: a uniform of that type or, where these are floats, of more digits.
+template <class U, class R>
+concept DecidesFor = std::same_as<U, R> ||(std::floating_point<R>&& FloatOrDouble<U>);
+
 }  // namespace detail
 
 // R is the type of the weights. In lanes each lane keeps an item of its own; items then are samples in lanes, points in lanes,
@@ -41,38 +45,33 @@ class Reservoir {
     using Sum = detail::SumOfWeights<R>;
     using Wide = typename Sum::Value;  // a selection is decided in the precision of the sum
 
-    // A uniform decides by its own digits: with weights in float it may still be a double.
-    template <class U>
-    static constexpr bool decides = std::same_as<U, R> || (std::floating_point<R> && FloatOrDouble<U>);
-
   public:
     // Keeps the item, in place of the one before, if u in [0, 1) lies below its share of all weights; 1 is tolerated. Returns
-    // whether it does. u is a fresh uniform; the first item of a positive weight is kept whatever u is (but for double, if it is less
-    // than 2^-1021).
+    // whether it does. u is a fresh uniform. The first item of a positive weight is kept whatever u is, unless the weight is a
+    // subnormal double.
     //
     // A uniform of float has steps of 2^-24, which favours an item over those before it by half a step, on average. For more than
     // 10^5 items give a double.
     //
     // stands_for: how many candidates the item was selected from, for count() alone.
-    template <class U>
-        requires decides<U> LUMIS_INLINE MaskOf<R> add(const Item& item, std::type_identity_t<R> weight, const U& u,
-                                                       std::uint64_t stands_for = 1)
-    noexcept {
+    template <detail::DecidesFor<R> U>
+    LUMIS_INLINE MaskOf<R> add(const Item& item, std::type_identity_t<R> weight, const U& u,
+                               std::uint64_t stands_for = 1) noexcept {
         U unused = u;
         return add<false>(item, weight, unused, stands_for);
     }
 
     // The same, and u becomes a uniform that is as good as a fresh one but for its digits: it loses as many bits as the
     // selection among all items takes. For hosts that are short of numbers, as low-discrepancy points are of dimensions.
-    template <class U>
-        requires decides<U> LUMIS_INLINE MaskOf<R> add_reusing(const Item& item, std::type_identity_t<R> weight, U& u,
-                                                               std::uint64_t stands_for = 1)
-    noexcept { return add<true>(item, weight, u, stands_for); }
+    template <detail::DecidesFor<R> U>
+    LUMIS_INLINE MaskOf<R> add_reusing(const Item& item, std::type_identity_t<R> weight, U& u,
+                                       std::uint64_t stands_for = 1) noexcept {
+        return add<true>(item, weight, u, stands_for);
+    }
 
     // As if all items of `other` had been added here, at the cost of one.
-    template <class U>
-        requires decides<U> LUMIS_INLINE MaskOf<R> merge(const Reservoir& other, const U& u)
-    noexcept {
+    template <detail::DecidesFor<R> U>
+    LUMIS_INLINE MaskOf<R> merge(const Reservoir& other, const U& u) noexcept {
         U unused = u;
         count_ += other.count_;
         const R weight = accepted(other.total_weight());

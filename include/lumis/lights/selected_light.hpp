@@ -17,16 +17,16 @@
 namespace lumis::LUMIS_ISA {
 
 // One of several lights, and where it is looked for.
-template <class Direction>
+template <class Point>
 struct ToLight {
     std::size_t index{};
-    Direction direction{};
+    Point direction{};
 };
 
-// Integrates over all lights, each by itself: f(x) is the contribution of light x.index alone along x.direction, and where another
-// stands before it, it is hidden. Measure: counting over the lights, times that of the lights, solid angle. Set is a LightSet, and
-// may be a reference, see Held; u is that of the set. Samples have the distance to the light selected, and its surface if it tells
-// one. For many lights, and for candidates of resample; does not compose with strategies over directions.
+// For many lights, and as a source of candidates for resample. An integrand is told light x.index and the direction x.direction, and
+// returns what this light alone contributes; where another hides it, 0. Measure: counting over the lights, times solid angle. u is
+// that of the set. Samples have the distance to the light, and its surface if it tells one. Strategies over directions do not
+// compose with it: their points are others. Set is a LightSet, and may be a reference, see Held.
 template <class Set>
 class SelectedLight {
     using Held = std::remove_cvref_t<Set>;
