@@ -80,7 +80,7 @@ void add_rough_glass() {
         lumis::pdf_n(s, part(w.x, pass), part(w.y, pass), part(w.z, pass), out.pdf);
     });
 
-    // For a wo of each sample's own.
+    // A wo of each sample's own.
     const auto once = [scene, eta]<class S>(std::type_identity<S>) {
         return [=](const glm::vec<3, T>& wo, const Chosen<T>& u, std::size_t, Results<T>& out) {
             const glm::vec<3, T> start = wo;

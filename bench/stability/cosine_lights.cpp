@@ -24,7 +24,7 @@ std::vector<QuadVector> above_horizon(const std::vector<QuadVector>& polygon) {
     return above;
 }
 
-// By Lambert's formula.
+// Lambert's formula.
 double irradiance_of(const std::vector<QuadVector>& polygon) {
     Quad sum = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i)

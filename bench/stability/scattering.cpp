@@ -102,7 +102,7 @@ struct QuadDielectric {
         return ((along.z * side > 0 ? 1 : -1) / length(along)) * along;
     }
     [[nodiscard]] bool mirrors(const QuadVector& i) const { return o.z * i.z > 0; }
-    // Of the squared cosine of the refracted ray, times n_i^2.
+    // The squared cosine of the refracted ray, times n_i^2.
     [[nodiscard]] Quad square(const Quad& cos_o) const { return n_i * n_i - n_o * n_o * (1 - cos_o * cos_o); }
 
     // The cosine of a mirrored pair is half of the length of its sum. A dot product with the normal tells at grazing how far the

@@ -32,7 +32,7 @@ TEST_CASE("an estimate with low-discrepancy points and its error") {
     CHECK(std::abs(value - 1.740839502734) <= 4 * error);
     CHECK(error > 0);
 
-    // As many random numbers are off by more.
+    // Random numbers, as many, are off by more.
     lumis::RunningMoments<float> at_random;
     lumis::Uniforms uniforms{std::mt19937{1}};
     for (int i = 0; i < 16 * 256; ++i) at_random.add(direct.estimate(cosine, uniforms));

@@ -29,7 +29,7 @@ const auto exponential = [](double x) { return std::exp(x); };
 
 }  // namespace
 
-// Where techniques do not meet, counts are in proportion to the standard deviation over the root of the cost (Neyman).
+// Techniques that do not meet: counts are in proportion to the standard deviation over the root of the cost (Neyman).
 TEST_CASE("costs and deviations decide between techniques that do not meet", "[allocate]") {
     const Interval<double> left{0, 1}, right{1, 2};
     const auto f = [](double x) { return x < 1 ? 8 * x : x; };

@@ -40,7 +40,7 @@ bool agree(double a, double b) {
     return std::abs(a - b) <= 1e-10 * std::abs(b);
 }
 
-// To a float's digits, the last component exactly.
+// A float's digits, the last component exactly.
 bool nearly(const glm::vec3& a, const glm::vec3& b) {
     return std::abs(a.x - b.x) <= 1e-6f * std::abs(b.x) && std::abs(a.y - b.y) <= 1e-6f * std::abs(b.y) && a.z == b.z;
 }

@@ -79,7 +79,7 @@ TEST_CASE("e^x by the densities 1 and 2 x, the second of four times the cost", "
     CHECK(std::abs(forecast.multi_sample_variance({10, 9}) / variance_of_exponential(10, 9) - 1) <= 0.03);
     CHECK(plan.counts({.of_sample = {1, 4}}, {.most_samples = 20}) == Counts{10, 9});
     CHECK(plan.counts({.of_sample = {1, 4}}, {.most_samples = 3}) == Counts{1, 1});
-    // By one sample the gain is 1.226.
+    // The gain by one sample is 1.226.
     const auto probabilities = plan.probabilities({.of_sample = {1, 4}});
     CHECK(std::abs(probabilities[0] - 10 / 19.0) <= 1e-12);
     CHECK(probabilities[0] + probabilities[1] == 1);

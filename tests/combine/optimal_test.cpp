@@ -88,7 +88,7 @@ TEST_CASE("weights and variance are those of closed forms", "[optimal]") {
     CHECK(std::abs(balance_error * balance_error * many - 9.7211351045) <= 0.1);
 }
 
-// By hand: alpha (13, 7) / 8, variance 99 / 64. A technique that yields nothing half of the time.
+// Worked by hand: alpha (13, 7) / 8, variance 99 / 64. A technique that yields nothing half of the time.
 TEST_CASE("a draw that yields nothing is a point of its technique alone", "[optimal]") {
     const auto f = [](double x) { return x < 0.5 ? 4 + x : x; };
     check(optimal(take(1, everywhere), take(1, HalfTheTime{})), f, std::array{1.625, 0.875}, 1.546875, 2.5);

@@ -114,7 +114,7 @@ TEST_CASE("the variance is that of optimal weights, and the standard error says 
         1.546875, 1.6171875, 11);
 }
 
-// Where the densities fit f well, so that weights have little to win and much to lose.
+// Densities that fit f well, so that weights have little to win and much to lose.
 TEST_CASE("few rounds are hardly worse than the balance heuristic's", "[optimal][unbiased]") {
     const auto circle = [](double x) { return std::sqrt(1 - x * x); };
     for (const int rounds : {2, 4, 8, 32}) {

@@ -29,7 +29,7 @@ using lumis::take;
 TEMPLATE_TEST_CASE("pairs are weighed by balance, and all weights sum to 1", "[pairwise]", float, double) {
     using T = TestType;
     const T tolerance = 8 * std::numeric_limits<T>::epsilon();
-    // Where x > 0.8 the canonical technique draws nothing.
+    // The canonical technique draws nothing where x > 0.8.
     const auto three = multi_sample(PairwiseWeights{}, take(2, Interval<T>{0, T(0.8)}), take(3, Ramp<T>{}),
                                     take(5, Interval<T>{T(0.5), 1}), take(0, Ramp<T>{}));
     for (const T x : {T(0), T(0.3), T(0.6), T(0.9), T(1), T(2)}) {

@@ -33,7 +33,7 @@ void check(const auto& estimator, const auto& f) {
     CHECK(law.passed);
 }
 
-// In lanes and for numbers: the target is 0 where f is.
+// A target for lanes and numbers: 0 where f is.
 template <class T>
 struct Upper {
     T exponent;
@@ -90,7 +90,7 @@ struct Same {
     }
 };
 
-// As wide as each lane has it.
+// A width of its own in each lane.
 template <class R>
 struct Interval {
     using Scalar = R;

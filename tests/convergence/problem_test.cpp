@@ -51,7 +51,7 @@ TEST_CASE("a file in the folder of problems is found and measured") {
 }
 
 TEST_CASE("runs that are wholes are measured length by length") {
-    // Of one number: the count of estimates, by which a run is off.
+    // One number: the count of estimates, by which a run is off.
     Problem problem{"test", "Counts", "", Answer{1}};
     problem.compete(
         "counts", true, {"counting"},

@@ -168,7 +168,7 @@ TEST_CASE("where runs are wholes a slope may be steeper, and the longest run is 
     CHECK(verdict(shallow) == Verdict::Unexplained);
     // After 1.6 s, the longest run, the error is 0.2 * 1.6^-1.2.
     CHECK_THAT(efficiency(steep).value, WithinRel(1 / (1.6 * std::pow(0.2 * std::pow(1.6, -1.2), 2)), 1e-9));
-    // In between by the steps measured, and beyond by the slope -1/2, which is sure.
+    // The steps measured decide in between; the slope -1/2, which is sure, decides beyond.
     CHECK_THAT(effort_to(steep, 0.2 * std::pow(0.8, -1.2))->cpu_seconds, WithinRel(0.8, 1e-9));
     CHECK_THAT(effort_to(steep, 0.1 * std::pow(1.6, -1.2))->cpu_seconds, WithinRel(6.4, 1e-9));
 }

@@ -5,7 +5,7 @@
 
 namespace {
 
-// Of two sets, and of one that follows a start.
+// Two sets, and one that follows a start.
 struct Points {
     static constexpr int size = 9;
 

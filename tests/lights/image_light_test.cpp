@@ -90,7 +90,7 @@ TEMPLATE_TEST_CASE("texels lie where the convention says, and dark ones are not 
         REQUIRE(s.pdf > 0);
         const glm::dvec3 position = glm::dvec3{from} + double{s.distance} * glm::dvec3{s.value};
         REQUIRE(glm::length(position - glm::dvec3{s.surface.position}) <= 1e-5);
-        // By Cramer's rule, from the position alone.
+        // Cramer's rule, from the position alone.
         const glm::dvec3 eu{screen<T>.edge_u}, ev{screen<T>.edge_v}, d = position - glm::dvec3{screen<T>.corner};
         const glm::dvec3 normal = glm::cross(eu, ev);
         const double across = glm::dot(normal, normal);

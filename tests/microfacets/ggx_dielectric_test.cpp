@@ -185,7 +185,7 @@ TEMPLATE_TEST_CASE("weights of rough glass are f cos / pdf, and bounded", "[ggx_
         const double squeeze = cosine > 0 ? 1 / (eta * eta) : eta * eta,
                      slack = 1 + 4 * std::numeric_limits<T>::epsilon();
         for (int i = 0; i < 2000; ++i) {
-            // Of any direction, drawn or not.
+            // Any direction, drawn or not.
             const auto drawn = glass.sample(uniforms.template next<3>()).value;
             const auto any = lumis::UniformSphere<T>{}.sample(uniforms.template next<2>()).value;
             for (const auto& wi : {drawn, any}) {

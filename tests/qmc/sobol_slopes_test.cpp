@@ -37,7 +37,7 @@ struct Convergence {
     double slope, error;  // of log error over log points, and the error with the most of them
 };
 
-// Of the root mean square error over 64 randomisations, from 64 to 4096 points.
+// The slope of the root mean square error over 64 randomisations, from 64 to 4096 points.
 template <class Source>
 Convergence convergence(const auto& f, double answer) {
     constexpr std::array counts{64, 256, 1024, 4096};

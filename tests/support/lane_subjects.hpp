@@ -100,7 +100,7 @@ struct Sun {
     }
 };
 
-// By a normal: x, y, z.
+// Made of a normal: x, y, z.
 struct InFrameOfNormal {
     static constexpr std::size_t parameters = 3;
     template <class R>
@@ -118,7 +118,7 @@ struct InFrameOfNormal {
     }
 };
 
-// By tangent, bitangent and normal.
+// Made of tangent, bitangent and normal.
 struct InFrameOfThree {
     static constexpr std::size_t parameters = 9;
     template <class R>

@@ -50,7 +50,7 @@ struct HalfTheTime {
     [[nodiscard]] double pdf(double x) const noexcept { return x >= 0 && x < 0.5 ? 1 : 0; }
 };
 
-// In proportion to a positive function over [low, high], inverted by bisection of its integral (Simpson's rule).
+// Draws in proportion to a positive function over [low, high], inverted by bisection of its integral (Simpson's rule).
 template <class Shape>
 struct Numeric {
     using Scalar = double;

@@ -37,7 +37,7 @@ struct Luminance {
     }
 };
 
-// In place of a heuristic: the counts are for optimal(take(n, s)...), where a technique of count 0 is a control variate.
+// Stands in place of a heuristic: the counts are for optimal(take(n, s)...), where a technique of count 0 is a control variate.
 struct OptimalWeights {};
 
 namespace detail {

@@ -53,7 +53,7 @@ class CrossFitted {
     // Unbiased, after any number of rounds; 0 of none. One round is the balance heuristic's estimate.
     [[nodiscard]] LUMIS_HD Value estimate() const noexcept { return Value(moments().mean); }
 
-    // Of the estimate; NaN for fewer than two rounds. Its square is unbiased; as any from few rounds, it is too small while what
+    // The estimate's; NaN for fewer than two rounds. Its square is unbiased; as any from few rounds, it is too small while what
     // happens rarely has not happened yet.
     [[nodiscard]] LUMIS_HD Value standard_error() const noexcept { return Value(moments().standard_error()); }
 

@@ -40,7 +40,7 @@ class Forecast {
   public:
     LUMIS_HD Forecast() = default;
 
-    // From so many pilot rounds. Sums: PilotMoments, or PilotEquations, which ask every density even of count 0.
+    // Made of so many pilot rounds. Sums: PilotMoments, or PilotEquations, which ask every density even of count 0.
     template <class Sums>
     LUMIS_HD Forecast(const Sums& sums, const std::array<detail::FirstAndSecond, deltas>& delta_sums,
                       double rounds) noexcept
@@ -181,7 +181,7 @@ class Forecast {
         Amounts amounts{};
         double score = (std::numeric_limits<double>::max)();
 
-        // By more than rounding: else the first stays, which is the smaller.
+        // A better score is better by more than rounding: else the first stays, which is the smaller.
         LUMIS_HD constexpr bool offer(double new_score, const Amounts& new_amounts) noexcept {
             if (!(new_score < score * (1 - 1e-9))) return false;
             score = new_score;
@@ -302,7 +302,7 @@ class Forecast {
         return sum;
     }
 
-    // For each split: the sum over techniques of the variance, and of the second moment, of one contribution over the count;
+    // One entry a split: the sum over techniques of the variance, and of the second moment, of one contribution over the count;
     // and the square of the integral. The integral is estimated with each split anew: so its error cancels that of the second
     // moment, where both are nearly equal.
     double rounds_ = 0;

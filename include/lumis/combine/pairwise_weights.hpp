@@ -62,7 +62,7 @@ struct PairwiseWeights {
         result = real::select(drawn, result, T(0));
         if (real::all(settled)) [[likely]]
             return result;
-        // Where the canonical density is 0, and for what the policy on numbers that misbehave decides.
+        // Balance where the canonical density is 0, and for what the policy on numbers that misbehave decides.
         std::array<R, N> q{};
         detail::for_each_index<N>([&](auto k) { q[k] = density(k); });
         return real::select(settled, result, detail::weigh(BalanceHeuristic{}, I, std::span<const R, N>{q}));

@@ -64,7 +64,7 @@ template <class S>
         return map_.empty() ? glm::vec<2, T>{T(0), T(0)} : map_.invert(w);
     }
 
-    // From the reference point to the light, as far as it is above the horizon or not; infinity where w misses it.
+    // The distance from the reference point to the light, as far as it is above the horizon or not; infinity where w misses it.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_HD R distance_along(const Direction<R>& w) const noexcept {
         return detail::distance_or_infinity(view_.intersect(w));

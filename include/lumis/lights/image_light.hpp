@@ -6,7 +6,7 @@
 //     const auto s = light.sample(u);                                       // radiance(s.surface.uv), as the host looks it up
 //
 // Column x and row y of the image lie at u = (x + 1/2) / width along the first edge and v = (y + 1/2) / height along the second.
-// So an image whose first row is the top one stands upright on the shape {top left corner, edge to the right, edge down}.
+// An image whose first row is the top one stands upright on the shape {top left corner, edge to the right, edge down}.
 #pragma once
 
 #include "lumis/core/measure.hpp"
@@ -86,7 +86,7 @@ class ImageLight {
 
     [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& w) const noexcept { return table_.invert(uv_of(w)); }
 
-    // From the reference point to the light, dark texels included; infinity where w misses it.
+    // The distance from the reference point to the light, dark texels included; infinity where w misses it.
     [[nodiscard]] LUMIS_HD T distance_along(const Point& w) const noexcept {
         return detail::distance_or_infinity(view_.intersect(w));
     }
@@ -97,7 +97,7 @@ class ImageLight {
         return {detail::distance_or_infinity(hit), view_.surface(shape_, w, hit)};
     }
 
-    // For hosts that already know where a ray hit this light, see AreaLight; uv: the coordinates of the point.
+    // The density for hosts that already know where a ray hit this light, see AreaLight; uv: the coordinates of the point.
     [[nodiscard]] LUMIS_HD T pdf_from_hit(T distance, T cos_light, const glm::vec<2, T>& uv) const noexcept {
         return density(table_.pdf(uv), distance, cos_light);
     }

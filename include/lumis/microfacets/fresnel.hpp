@@ -41,7 +41,7 @@ struct IndexRatio {
     T eta;
     T excess;
 
-    // Of a ratio, and of its reciprocal.
+    // Covers a ratio, and its reciprocal.
     [[nodiscard]] LUMIS_INLINE static IndexRatio of(T eta) noexcept { return {eta, (eta - 1) * (eta + 1)}; }
     [[nodiscard]] LUMIS_INLINE static IndexRatio reciprocal(T eta) noexcept {
         const T inverse = real::divide(T(1), eta);

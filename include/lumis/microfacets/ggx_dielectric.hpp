@@ -94,7 +94,7 @@ class GgxDielectric {
     [[nodiscard]] LUMIS_HD const Ggx<T>& ggx() const noexcept { return reflection_.ggx(); }
 
   private:
-    // In what follows all directions are in the interface's mirror: wo is above.
+    // All directions below are in the interface's mirror: wo is above.
 
     // The normal that refracts wo into wi, and its cosines, from n_wo wo + n_wi wi (Walter et al. 2007, eq. 16), which points
     // to the side of the lesser index.

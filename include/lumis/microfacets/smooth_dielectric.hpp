@@ -30,7 +30,7 @@ class SmoothDielectric {
           wo_{above_horizon_or_zero(Direction<T>{wo.x, wo.y, real::abs(wo.z)})} {
         const T eta_cos_t = interface_.ratio().eta_cos_t(wo_.z);
         const T x = real::divide(wo_.x, interface_.ratio().eta), y = real::divide(wo_.y, interface_.ratio().eta);
-        // By Pythagoras, not from eta cos_t: then the direction has unit length to the last place.
+        // Pythagoras gives it, not eta cos_t: then the direction has unit length to the last place.
         cos_t_ = real::sqrt_or_zero(T(1 - (x * x + y * y)));
         const auto is_drawn = wo_.z > 0 && interface_.is_valid();
         const auto passes = is_drawn && eta_cos_t > 0 && cos_t_ > 0;

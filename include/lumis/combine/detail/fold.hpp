@@ -50,7 +50,7 @@ struct FoldMoments {
         count = sum;
     }
 
-    // Of the mean; NaN for fewer than two numbers.
+    // The mean's; NaN for fewer than two numbers.
     [[nodiscard]] LUMIS_HD Wide standard_error() const noexcept {
         const bool known = count > 1;
         return each_component(squares, [=, divisor = count * (count - 1)](double x) {
@@ -87,7 +87,7 @@ struct Fold {
         join(other.count, other.mean, other.controls);
     }
 
-    // Of the rounds' estimates with weights alpha.
+    // The rounds' estimates with weights alpha.
     [[nodiscard]] LUMIS_HD FoldMoments<Wide> moments(const std::array<Wide, K>& alpha) const noexcept {
         FoldMoments<Wide> result{count, mean, squares};
         for (std::size_t i = 0; i < K; ++i) {
@@ -104,7 +104,7 @@ struct Fold {
         return result;
     }
 
-    // Of control k.
+    // Control k alone.
     [[nodiscard]] LUMIS_HD FoldMoments<double> control_moments(std::size_t k) const noexcept {
         return {count, controls[k], control_products(k, k)};
     }

@@ -20,7 +20,7 @@ struct Shares {
     double inverse;           // 1 / S
 };
 
-// For densities of any kind: where one is NaN all is 0, and several drawn techniques of infinite density share evenly, as by
+// Densities may be of any kind: where one is NaN all is 0, and several drawn techniques of infinite density share evenly, as by
 // the policy of heuristics. The scale is a power of two, so that S neither overflows nor vanishes.
 template <std::size_t K>
 [[nodiscard]] LUMIS_COLD Shares<K> shares_at_scale(const std::array<double, K>& densities,

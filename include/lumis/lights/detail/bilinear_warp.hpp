@@ -20,7 +20,7 @@ template <Real R>
     return real::divide(R(x * (start * (2 - x) + end * x)), R(start + end));
 }
 
-// In [0, 1]^2, a NaN too, which is what a direction that is none inverts to.
+// A point in [0, 1]^2, for a NaN too, which is what a direction that is none inverts to.
 template <std::floating_point T>
 [[nodiscard]] LUMIS_HD glm::vec<2, T> within_square(const glm::vec<2, T>& u) noexcept {
     return {real::greater(T(0), real::lesser(T(1), u.x)), real::greater(T(0), real::lesser(T(1), u.y))};

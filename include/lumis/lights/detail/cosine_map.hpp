@@ -37,7 +37,7 @@ class CosineMap {
         if (fan_->empty()) fan_.reset();
     }
 
-    // Where nothing is seen above the horizon.
+    // Nothing is seen above the horizon.
     [[nodiscard]] LUMIS_HD bool empty() const noexcept { return !fan_ && !has_rectangle(); }
 
     // The direction, and its density. Not of an empty one, as below.
