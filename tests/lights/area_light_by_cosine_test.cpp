@@ -220,6 +220,34 @@ TEMPLATE_TEST_CASE("lights by cosine stay finite at any scale", "[area_light_by_
     }
 }
 
+// Rounding makes directions to the far corners of huge lights parallel to them: a ray along one meets nothing.
+TEMPLATE_TEST_CASE("what is drawn of huge flat lights is somewhere", "[area_light_by_cosine]", float, double) {
+    using T = TestType;
+    const T size = 4 / std::numeric_limits<T>::epsilon();
+    const auto is_somewhere = [](const auto& light) {
+        for (const T x : {T(0), T(0.5), T(1)}) {
+            for (const T y : {T(0), T(0.5), T(1)}) {
+                const auto drawn = light.sample({x, y});
+                if (drawn.pdf > 0 && !(drawn.distance > 0)) return false;
+            }
+        }
+        return true;
+    };
+    for (int i = 0; i < 100; ++i) {
+        const double angle = 0.02 * i;
+        const glm::vec<3, T> u = at<T>(std::cos(angle), 0.3, std::sin(angle)), v = at<T>(0.2, 1, -0.1);
+        const glm::vec<3, T> normal = glm::normalize(glm::cross(u, v));
+        const glm::vec<3, T> corner = at<T>(0.3, 0.2, 0) + normal * T(0.02);
+        const lumis::Triangle<T> triangle{corner, corner + size * u, corner + size * v};
+        const lumis::Parallelogram<T> shape{corner, size * u, size * v};
+        INFO("angle " << angle);
+        CHECK(is_somewhere(light(triangle, normal)));
+        CHECK(is_somewhere(light(shape, normal)));
+        CHECK(is_somewhere(lumis::AreaLight<lumis::Triangle<T>, lumis::BySolidAngle>{triangle, {}}));
+        CHECK(is_somewhere(lumis::AreaLight<lumis::Parallelogram<T>, lumis::BySolidAngle>{shape, {}}));
+    }
+}
+
 TEMPLATE_TEST_CASE("lights by cosine beside other techniques", "[area_light_by_cosine]", float, double) {
     using T = TestType;
     const lumis::Parallelogram<T> wall{at<T>(1, -1, -0.5), at<T>(0, 2, 0.2), at<T>(0.1, 0, 2)};

@@ -43,7 +43,7 @@ template <class S>
         const auto [w, pdf] = map_.sample(u);
         // Rounding may put a direction below the horizon.
         const auto above = glm::dot(w, Direction<R>(normal_)) > 0;
-        return detail::seen_at(w, R(real::select(above, pdf, 0)), view_.meet_plane(w).distance);
+        return detail::seen_on_plane(w, R(real::select(above, pdf, 0)), view_.meet_plane(w).distance);
     }
 
     template <RealOf<T> R = T>

@@ -18,15 +18,31 @@ namespace lumis::LUMIS_ISA {
 namespace detail {
 
 // What was drawn, or nothing where rounding has put the direction beside the light, or has left no unit vector: slivers no
-// wider than the last place of their coordinates are seen so. The distance is 0 on a sphere's surface.
+// wider than the last place of their coordinates are seen so.
 template <Real R>
-[[nodiscard]] LUMIS_INLINE inline LightSample<Direction<R>, R> seen_at(const Direction<R>& w,
+[[nodiscard]] LUMIS_INLINE inline LightSample<Direction<R>, R> seen_if(const MaskOf<R>& meets, const Direction<R>& w,
                                                                        std::type_identity_t<R> pdf,
                                                                        R distance) noexcept {
     constexpr auto rounding = 64 * std::numeric_limits<R>::epsilon();
-    const auto seen = real::abs(real::rounded(R(glm::dot(w, w) - 1))) <= rounding && distance >= 0 &&
+    const auto seen = real::abs(real::rounded(R(glm::dot(w, w) - 1))) <= rounding && meets &&
                       distance <= (std::numeric_limits<R>::max)();
     return {real::select(seen, w, Direction<R>{}), real::select(seen, pdf, 0), real::select(seen, distance, 0)};
+}
+
+// The distance is 0 on a sphere's surface.
+template <Real R>
+[[nodiscard]] LUMIS_INLINE inline LightSample<Direction<R>, R> seen_on_sphere(const Direction<R>& w,
+                                                                              std::type_identity_t<R> pdf,
+                                                                              R distance) noexcept {
+    return seen_if<R>(distance >= 0, w, pdf, distance);
+}
+
+// The distance is 0 parallel to the plane, which is not met there: the far corners of huge lights are rounded to such directions.
+template <Real R>
+[[nodiscard]] LUMIS_INLINE inline LightSample<Direction<R>, R> seen_on_plane(const Direction<R>& w,
+                                                                             std::type_identity_t<R> pdf,
+                                                                             R distance) noexcept {
+    return seen_if<R>(distance > 0, w, pdf, distance);
 }
 
 // The density that is even over a solid angle; 0 over none, and over one so small that its inverse is out of range.
@@ -54,7 +70,7 @@ class AreaLight<Sphere<T>, BySolidAngle> {
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_INLINE LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         const auto [direction, distance] = view_.direction(u);
-        return detail::seen_at(direction, pdf_, distance);
+        return detail::seen_on_sphere(direction, pdf_, distance);
     }
 
     [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& w) const noexcept { return view_.invert_direction(w); }
@@ -112,7 +128,7 @@ class AreaLight<Triangle<T>, BySolidAngle> {
     [[nodiscard]] LUMIS_INLINE LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         if (!(pdf_ > 0)) return {};
         const Direction<R> w = seen_.sample(u);
-        return detail::seen_at(w, pdf_, view_.meet_plane(w).distance);
+        return detail::seen_on_plane(w, pdf_, view_.meet_plane(w).distance);
     }
 
     template <RealOf<T> R = T>
@@ -184,11 +200,11 @@ class AreaLight<Parallelogram<T>, BySolidAngle> {
         if (halves_) {
             const Halves halves{*halves_};  // see split
             const Direction<R> w = halves.sample(u);
-            return detail::seen_at(w, pdf_, view_.meet_plane(w).distance);
+            return detail::seen_on_plane(w, pdf_, view_.meet_plane(w).distance);
         }
         const glm::vec<3, R> position = rectangle_.sample(u);
         const R distance = real::length(position);
-        return detail::seen_at(position * real::divide(R(T(1)), distance), pdf_, R(distance * unit_));
+        return detail::seen_on_plane(position * real::divide(R(T(1)), distance), pdf_, R(distance * unit_));
     }
 
     template <RealOf<T> R = T>
