@@ -220,6 +220,26 @@ TEMPLATE_TEST_CASE("lights by cosine stay finite at any scale", "[area_light_by_
     }
 }
 
+// A corner that touches the horizon is one vertex of what is seen: two make a triangle of rounding alone beside a huge light.
+TEMPLATE_TEST_CASE("huge lights that touch the horizon with a corner are drawn", "[area_light_by_cosine]", float, double) {
+    using T = TestType;
+    for (const double size : {1.0, 1e5, 1e9}) {
+        const glm::vec<3, T> corner = at<T>(0.6, -0.8, 0);
+        const glm::vec<3, T> u = at<T>(0.3 * size, -0.9 * size, 0.2 * size), v = at<T>(0.7 * size, 0.5 * size, 0.4 * size);
+        INFO("size " << size);
+        const auto all = [](const auto& shape) {
+            int drawn = 0;
+            for (int i = 0; i < 400; ++i) {
+                const T x = (static_cast<T>(i % 20) + T(0.5)) / 20, y = (static_cast<T>(i / 20) + T(0.5)) / 20;
+                drawn += shape.sample({x, y}).pdf > 0 ? 1 : 0;
+            }
+            return drawn == 400;
+        };
+        CHECK(all(light(lumis::Triangle<T>{corner, corner + u, corner + v}, up<T>)));
+        CHECK(all(light(lumis::Parallelogram<T>{corner, u, v}, up<T>)));
+    }
+}
+
 // Rounding makes directions to the far corners of huge lights parallel to them: a ray along one meets nothing.
 TEMPLATE_TEST_CASE("what is drawn of huge flat lights is somewhere", "[area_light_by_cosine]", float, double) {
     using T = TestType;

@@ -47,12 +47,12 @@ class HorizonPolygon {
         const W heights[] = {height, height + rise_u, height + rise, height + rise_v};
         for (int i = 0; i < corners; ++i) {
             const int k = i + 1 < corners ? i + 1 : 0;
-            const bool above = heights[i] > 0, next_above = heights[k] > 0;
-            if (above) add(at[i], heights[i]);
-            // Where the edge meets the horizon, as a share of the edge from the end that is above.
-            if (above && !next_above)
+            // A corner that touches the horizon is one vertex, not two where its edges meet the horizon.
+            if (heights[i] >= 0) add(at[i], heights[i]);
+            // Where the edge crosses the horizon, as a share of the edge from the end that is above.
+            if (heights[i] > 0 && heights[k] < 0)
                 add(at[i] + (at[k] - at[i]) * real::divide(heights[i], heights[i] - heights[k]), 0);
-            if (!above && next_above)
+            if (heights[i] < 0 && heights[k] > 0)
                 add(at[k] + (at[i] - at[k]) * real::divide(heights[k], heights[k] - heights[i]), 0);
         }
     }
