@@ -221,11 +221,13 @@ TEMPLATE_TEST_CASE("lights by cosine stay finite at any scale", "[area_light_by_
 }
 
 // A corner that touches the horizon is one vertex of what is seen: two make a triangle of rounding alone beside a huge light.
-TEMPLATE_TEST_CASE("huge lights that touch the horizon with a corner are drawn", "[area_light_by_cosine]", float, double) {
+TEMPLATE_TEST_CASE("huge lights that touch the horizon with a corner are drawn", "[area_light_by_cosine]", float,
+                   double) {
     using T = TestType;
     for (const double size : {1.0, 1e5, 1e9}) {
         const glm::vec<3, T> corner = at<T>(0.6, -0.8, 0);
-        const glm::vec<3, T> u = at<T>(0.3 * size, -0.9 * size, 0.2 * size), v = at<T>(0.7 * size, 0.5 * size, 0.4 * size);
+        const glm::vec<3, T> u = at<T>(0.3 * size, -0.9 * size, 0.2 * size),
+                             v = at<T>(0.7 * size, 0.5 * size, 0.4 * size);
         INFO("size " << size);
         const auto all = [](const auto& shape) {
             int drawn = 0;
@@ -238,6 +240,26 @@ TEMPLATE_TEST_CASE("huge lights that touch the horizon with a corner are drawn",
         CHECK(all(light(lumis::Triangle<T>{corner, corner + u, corner + v}, up<T>)));
         CHECK(all(light(lumis::Parallelogram<T>{corner, u, v}, up<T>)));
     }
+}
+
+// Beside a light in its own plane, a floor's, rounding alone says which of its corners are above the horizon.
+TEMPLATE_TEST_CASE("lights in the receiver's plane have no more vertices than fit", "[area_light_by_cosine]", float,
+                   double) {
+    using T = TestType;
+    using Polygon = lumis::detail::HorizonPolygon<lumis::Parallelogram<T>>;
+    using W = lumis::detail::Wide<T>;
+    int most = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const double a = 0.37 * i;
+        const lumis::Frame<T> floor{glm::normalize(at<T>(std::cos(a), std::sin(1.3 * a), 0.5 + std::cos(0.7 * a)))};
+        const auto in_plane = [&](double angle, double length) {
+            return floor.to_world(at<T>(length * std::cos(angle), length * std::sin(angle), 0));
+        };
+        const lumis::Parallelogram<T> shape{in_plane(2 * a, 3), in_plane(3 * a, 1), in_plane(5 * a, 2)};
+        const lumis::detail::FlatShape<lumis::Parallelogram<T>> flat{shape, glm::vec<3, T>{T(0)}};
+        most = std::max(most, Polygon{flat, glm::vec<3, W>{floor.normal()}}.size());
+    }
+    CHECK(most <= Polygon::most_vertices);
 }
 
 // Rounding makes directions to the far corners of huge lights parallel to them: a ray along one meets nothing.
