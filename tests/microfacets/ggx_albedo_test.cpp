@@ -103,6 +103,7 @@ TEMPLATE_TEST_CASE("a white metal reflects all of a white sky", "[ggx_albedo]", 
             CHECK(std::abs(double{factor.y} - 0.5 - double{factor.x} / 2) <= 1e-6);
             CHECK(factor.z == 1);
             CHECK(lumis::ggx_compensation(bsdf.ggx(), towards<T>(mu, 0.3), T(1)) == factor.x);
+            CHECK(lumis::ggx_compensation(bsdf.ggx(), towards<T>(mu, 0.3), 1) == factor.x);
         }
     }
 }
@@ -143,9 +144,10 @@ TEMPLATE_TEST_CASE("albedos from below, out of range, and in lanes", "[ggx_albed
         const auto w = towards<T>(0.3 * static_cast<double>(i) - 0.1, 0.3);
         for (int k = 0; k < 3; ++k) directions[k].set(i, w[k]);
     }
-    const L albedos = lumis::ggx_albedo(rough, directions);
+    const L albedos = lumis::ggx_albedo(rough, directions), factors = lumis::ggx_compensation(rough, directions, 0.5);
     for (std::size_t i = 0; i < L::size; ++i) {
         const glm::vec<3, T> w{directions.x[i], directions.y[i], directions.z[i]};
         CHECK(std::abs(double{albedos[i] - lumis::ggx_albedo(rough, w)}) <= 1e-6);
+        CHECK(std::abs(double{factors[i] - lumis::ggx_compensation(rough, w, T(0.5))}) <= 1e-6);
     }
 }

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 namespace lumis::LUMIS_ISA {
 
@@ -67,10 +68,19 @@ template <Real T, RealOf<T> R = T>
 // angle. The density stays as it is: the shape of the lobe does not change. Not reciprocal: wo is the direction that light
 // leaves along, towards the camera; paths from lights ask with the one they leave along as well.
 template <Real T, RealOf<T> R, class Reflectance>
+    requires(!std::is_arithmetic_v<Reflectance>)
 [[nodiscard]] LUMIS_HD Reflectance ggx_compensation(const Ggx<T>& ggx, const Direction<R>& wo,
                                                     const Reflectance& f0) noexcept {
     const R albedo = ggx_albedo<T, R>(ggx, wo);
     return Reflectance(scalar_of<T>(1)) + f0 * real::quotient_where(albedo > 0, R(1 - albedo), albedo);
+}
+// The same of a number of any type, 1 for a white metal: the factor is none of that type.
+template <Real T, RealOf<T> R, class Number>
+    requires std::is_arithmetic_v<Number>
+[[nodiscard]] LUMIS_HD R ggx_compensation(const Ggx<T>& ggx, const Direction<R>& wo, Number f0) noexcept {
+    const R albedo = ggx_albedo<T, R>(ggx, wo);
+    const scalar_of<T> reflectance = static_cast<scalar_of<T>>(f0);
+    return 1 + reflectance * real::quotient_where(albedo > 0, R(1 - albedo), albedo);
 }
 
 }  // namespace lumis::LUMIS_ISA
