@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <concepts>
 #include <initializer_list>
 #include <limits>
 #include <numbers>
@@ -91,6 +92,10 @@ TEMPLATE_TEST_CASE("the mean cosine is g, forward where positive", "[henyey_gree
         CHECK(worst <= 40 * double{std::numeric_limits<T>::epsilon()} / (1 - std::abs(g)));
     }
 }
+
+// The direction decides on the scalar.
+static_assert(
+    std::same_as<decltype(lumis::HenyeyGreenstein{lumis::Direction<float>{}, 0.5}), lumis::HenyeyGreenstein<float>>);
 
 TEMPLATE_TEST_CASE("what is no phase function draws nothing", "[henyey_greenstein]", float, double) {
     using T = TestType;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -90,6 +91,9 @@ TEMPLATE_TEST_CASE("the sun among other techniques and lights", "[sun]", float, 
         "in a set", [&](auto& uniforms) { return both.estimate(cosine, uniforms); },
         answer + pi * std::pow(std::sin(0.2), 2) * 0.8);
 }
+
+// The direction decides on the scalar.
+static_assert(std::same_as<decltype(lumis::Sun{lumis::Direction<float>{}, 0.25}), lumis::Sun<float>>);
 
 TEMPLATE_TEST_CASE("suns that are none", "[sun]", float, double) {
     using T = TestType;

@@ -11,6 +11,7 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -286,6 +287,10 @@ TEMPLATE_TEST_CASE("where a boundary is none, or wo lies in it, nothing is drawn
     draws_nothing({V{nan, 0, 1}, T(0.3), T(1.5)});
     CHECK(caught.count() > 0);
 }
+
+// The direction decides on the scalar.
+static_assert(std::same_as<decltype(lumis::GgxDielectric{lumis::Direction<float>{}, glm::vec2{0.1f, 0.2f}, 1.5}),
+                           lumis::GgxDielectric<float>>);
 
 TEMPLATE_TEST_CASE("rough glass in a frame and in a mixture", "[ggx_dielectric]", float, double) {
     using T = TestType;

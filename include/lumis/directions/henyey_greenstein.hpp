@@ -12,6 +12,7 @@
 #include "lumis/core/strategy.hpp"
 
 #include <numbers>
+#include <type_traits>
 
 namespace lumis::LUMIS_ISA {
 
@@ -26,7 +27,7 @@ class HenyeyGreenstein {
     // wo: unit, away from the point, as all directions; light that goes straight on leaves along -wo. g in (-1, 1): the mean of
     // cos(theta) between -wo and the scattered direction. Positive g scatters forward, as most matter does, 0 evenly, negative g
     // back. Nothing is drawn for any other g, nor for a wo without a direction.
-    LUMIS_INLINE HenyeyGreenstein(const Direction<T>& wo, T g) noexcept
+    LUMIS_INLINE HenyeyGreenstein(const Direction<T>& wo, std::type_identity_t<T> g) noexcept
         : HenyeyGreenstein{detail::unit_or(wo, 0), g, detail::is_unit(detail::unit_or(wo, 0)) && real::abs(g) < 1} {
         LUMIS_ASSERT(real::all(detail::is_unit(wo)) && real::all(real::abs(g) <= 1));
     }

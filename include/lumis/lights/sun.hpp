@@ -11,6 +11,7 @@
 #include "lumis/directions/detail/cone.hpp"
 
 #include <limits>
+#include <type_traits>
 
 namespace lumis::LUMIS_ISA {
 
@@ -23,7 +24,7 @@ class Sun {
     static constexpr int dimensions = 2;
 
     // direction: unit, towards the centre; of one that is none nothing is drawn. half_angle: as UniformCone's.
-    LUMIS_INLINE Sun(const Direction<T>& direction, T half_angle) noexcept
+    LUMIS_INLINE Sun(const Direction<T>& direction, std::type_identity_t<T> half_angle) noexcept
         : Sun{detail::unit_or(direction, 0), half_angle, detail::is_unit(detail::unit_or(direction, 0))} {
         LUMIS_ASSERT(real::all(detail::is_unit(direction)));
     }

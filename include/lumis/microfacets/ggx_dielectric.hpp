@@ -13,6 +13,7 @@
 #include "lumis/microfacets/transport_mode.hpp"
 
 #include <concepts>
+#include <type_traits>
 
 namespace lumis::LUMIS_ISA {
 
@@ -28,7 +29,7 @@ class GgxDielectric {
     // ggx_min_alpha. eta: the index of refraction below z = 0 over the one above: 1.5 for glass, whichever side wo is on;
     // see dielectric_min_eta. The refracted lobe is about alpha |eta - 1| wide: below 1e-4 a float direction cannot resolve
     // it. With eta = 1 all passes straight, which has no density, and nothing is drawn: use SmoothDielectric.
-    LUMIS_INLINE GgxDielectric(const Direction<T>& wo, glm::vec<2, T> alpha, T eta) noexcept
+    LUMIS_INLINE GgxDielectric(const Direction<T>& wo, glm::vec<2, T> alpha, std::type_identity_t<T> eta) noexcept
         : interface_{wo, eta},
           wo_{above_horizon_or_zero(Direction<T>{wo.x, wo.y, real::abs(wo.z)})},
           reflection_{Direction<T>{wo.x, wo.y, real::abs(wo.z)},
