@@ -119,6 +119,21 @@ TEST_CASE("weights from elsewhere leave each estimate as it is without them, on 
     }()));
 }
 
+TEST_CASE("the square of what is large makes an infinite standard error, not NaN", "[cross_fitted]") {
+    auto large = lumis::optimal(take(1, Monomial{1}), take(1, Monomial{2}));
+    auto even = lumis::optimal(take(1, Monomial{1}));
+    CountingUniforms<double> uniforms;
+    for (int i = 0; i < 100; ++i) {
+        large.add([](double x) { return 1e200 * x * x; }, uniforms);
+        even.add([](double) { return 1e200; }, uniforms);
+    }
+    CHECK(std::abs(large.estimate() - 1e200 / 3) <= 0.1e200);
+    CHECK(large.standard_error() == std::numeric_limits<double>::infinity());
+    CHECK(large.standard_error({}) == std::numeric_limits<double>::infinity());
+    CHECK(large.rejected() == 0);
+    CHECK(even.standard_error({}) == 0);  // without a deviation nothing overflows
+}
+
 TEST_CASE("a colour's components have weights of their own", "[cross_fitted]") {
     auto color = lumis::optimal<glm::vec3>(take(1, Monomial{1}), take(1, Monomial{2}));
     auto red = lumis::optimal<float>(take(1, Monomial{1}), take(1, Monomial{2})), green = red;

@@ -46,7 +46,8 @@ struct FoldMoments {
         const double sum = count + other.count;
         const Wide between = other.mean - mean;
         mean += between * (other.count / sum);
-        squares += other.squares + between * between * (count * other.count / sum);
+        // A square of what is large comes after the count, which may be 0: no Inf times 0.
+        squares += other.squares + between * (count * other.count / sum) * between;
         count = sum;
     }
 
@@ -118,12 +119,12 @@ struct Fold {
         std::array<double, K> controls_between;
         for (std::size_t i = 0; i < K; ++i) controls_between[i] = their_controls[i] - controls[i];
         mean += between * share;
-        squares += between * between * size;
+        squares += between * size * between;  // in this order: size is 0 for the first, and a square may overflow
         for (std::size_t i = 0; i < K; ++i) {
             controls[i] += controls_between[i] * share;
             products[i] += between * (controls_between[i] * size);
             for (std::size_t k = 0; k <= i; ++k) {
-                control_products(i, k) += controls_between[i] * controls_between[k] * size;
+                control_products(i, k) += controls_between[i] * size * controls_between[k];
             }
         }
         count += others;
