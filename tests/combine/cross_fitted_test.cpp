@@ -119,6 +119,14 @@ TEST_CASE("weights from elsewhere leave each estimate as it is without them, on 
     }()));
 }
 
+TEST_CASE("the mean of whole numbers is none", "[cross_fitted]") {
+    auto half = lumis::optimal<int>(take(1, Monomial{1}), take(1, Monomial{2}));
+    CountingUniforms<double> uniforms;
+    for (int i = 0; i < 1000; ++i) half.add([](double x) { return x < 0.5 ? 1 : 0; }, uniforms);
+    CHECK(half.standard_error() <= 0.02);
+    CHECK(std::abs(half.estimate() - 0.5) <= 4 * half.standard_error());
+}
+
 TEST_CASE("the square of what is large makes an infinite standard error, not NaN", "[cross_fitted]") {
     auto large = lumis::optimal(take(1, Monomial{1}), take(1, Monomial{2}));
     auto even = lumis::optimal(take(1, Monomial{1}));

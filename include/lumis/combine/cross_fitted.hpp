@@ -12,8 +12,10 @@
 
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 namespace lumis::LUMIS_ISA {
 
@@ -28,6 +30,9 @@ class CrossFitted {
   public:
     // alpha_k, by which the density of technique k is subtracted from the integrand. 0: the balance heuristic's estimate.
     using Weights = std::array<Wide, K>;
+
+    // The mean of whole numbers is none.
+    using Estimate = std::conditional_t<std::integral<Value>, Wide, Value>;
 
     static constexpr std::size_t folds = 4;
 
@@ -51,17 +56,20 @@ class CrossFitted {
     }
 
     // Unbiased, after any number of rounds; 0 of none. One round is the balance heuristic's estimate.
-    [[nodiscard]] LUMIS_HD Value estimate() const noexcept { return Value(moments().mean); }
+    [[nodiscard]] LUMIS_HD Estimate estimate() const noexcept { return Estimate(moments().mean); }
 
-    // The estimate's; NaN for fewer than two rounds. Its square is unbiased; as any from few rounds, it is too small while what
-    // happens rarely has not happened yet.
-    [[nodiscard]] LUMIS_HD Value standard_error() const noexcept { return Value(moments().standard_error()); }
+    // The estimate's; NaN for fewer than two rounds. It takes the rounds' estimates as independent, but folds share the rounds
+    // that they take weights from: its square is too small by up to 22 % at two rounds, 12 % at four, 5 % at seven, 1 % at
+    // sixteen. As any from few rounds, it is too small as well while what happens rarely has not happened yet.
+    [[nodiscard]] LUMIS_HD Estimate standard_error() const noexcept { return Estimate(moments().standard_error()); }
 
     // The same with weights from elsewhere, as of neighbouring pixels or earlier passes. Unbiased if they do not depend on
-    // these rounds.
-    [[nodiscard]] LUMIS_HD Value estimate(const Weights& alpha) const noexcept { return Value(moments(alpha).mean); }
-    [[nodiscard]] LUMIS_HD Value standard_error(const Weights& alpha) const noexcept {
-        return Value(moments(alpha).standard_error());
+    // these rounds, and so is the square of the standard error.
+    [[nodiscard]] LUMIS_HD Estimate estimate(const Weights& alpha) const noexcept {
+        return Estimate(moments(alpha).mean);
+    }
+    [[nodiscard]] LUMIS_HD Estimate standard_error(const Weights& alpha) const noexcept {
+        return Estimate(moments(alpha).standard_error());
     }
 
     // alpha from all rounds. Their sum is the integral as well, but estimates it with bias.
