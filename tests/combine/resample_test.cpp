@@ -159,6 +159,27 @@ TEMPLATE_TEST_CASE("a candidate that is next to nothing beside another is not se
     CHECK(two.estimate([](T x) { return x; }, lumis::uniforms_from<T>(numbers)) == 0);
 }
 
+// Resampling weights, target over density, that numbers T do not hold.
+TEMPLATE_TEST_CASE("the scale of a target does not matter", "[resample]", float, double) {
+    using T = TestType;
+    constexpr int range = std::numeric_limits<T>::max_exponent;
+    const lumis::BalanceHeuristic balance;
+    for (const int exponent : {-range / 2, 0, range / 2}) {
+        const Interval<T> some{0, std::ldexp(T(1), exponent)};
+        const auto f = [&](T x) { return x * std::ldexp(T(1), -exponent); };
+        for (const int size : {4 - range, -range / 2, range / 2, range - 4}) {
+            const auto target = [=](T) { return std::ldexp(T(1), size); };
+            check_same<T>(resample(target, take(1, some)), multi_sample(balance, take(1, some)), f);
+            CountingUniforms<T> uniforms;
+            for (int i = 0; i < 100; ++i) {
+                CHECK(resample(target, take(4, some)).sample(uniforms).contribution_weight == some.high - some.low);
+                CHECK(resample(target, take(2, some), take(2, some)).estimate([](T) { return T(1); }, uniforms) ==
+                      some.high - some.low);
+            }
+        }
+    }
+}
+
 // The integrand gets whole samples: the distance to the nearest light, whichever technique drew, its surface, its index.
 TEST_CASE("what a light tells of a candidate reaches target and integrand", "[resample]") {
     using glm::dvec3;

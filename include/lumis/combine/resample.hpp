@@ -16,6 +16,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -233,19 +234,28 @@ class Resampling : public Combination<H, S...> {
         decltype(auto) told = this->template seen<I, only_points, R>(sample);
         decltype(auto) whole = detail::as_common<std::remove_cvref_t<decltype(kept.item().sample)>>(told);
         const R target = real::select(is_drawn, target_at<I, R>(whole, is_drawn), T(0));
-        LUMIS_ASSERT(real::all(target >= 0));
+        LUMIS_ASSERT(real::all(target >= 0 && target <= (std::numeric_limits<T>::max)()));
         const MaskOf<R> wanted = target > 0;
         missed(whole, is_drawn && !wanted);
         if (!real::any(wanted)) return;
         const R divisor = detail::positive_divisor(is_drawn, own);
         if constexpr (divides) {
-            kept.add({whole, own}, real::select(wanted, R(real::divide(target, divisor)), T(0)), selecting);
+            kept.add({whole, own}, real::select(wanted, in_range(R(real::divide(target, divisor))), T(0)), selecting);
         } else {
             const R weight =
                 this->template weight_given<I, R>(sample.value, [&] { return real::select(is_drawn, own, T(0)); });
             const R scale = real::divide(weight, divisor);
-            kept.add({whole, scale}, real::select(wanted, R(target * scale), T(0)), selecting);
+            kept.add({whole, scale}, real::select(wanted, in_range(R(target * scale)), T(0)), selecting);
         }
+    }
+
+    // A resampling weight that reservoirs take. Any positive one selects without bias: that of a target which is very small or
+    // large beside the density must neither vanish nor overflow.
+    template <Real R>
+    [[nodiscard]] LUMIS_INLINE static R in_range(const R& weight) noexcept {
+        using Limits = std::numeric_limits<scalar_of<R>>;
+        constexpr scalar_of<R> least = (Limits::min)(), most = (Limits::max)() * 0x1p-16f;
+        return real::clamp(weight, R(least), R(most));
     }
 
     template <std::size_t I, Real R, class Drawn>
