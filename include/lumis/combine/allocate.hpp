@@ -74,8 +74,10 @@ class Allocation : private Combination<BalanceHeuristic, S...> {
     static_assert(std::floating_point<Scalar>,
                   "pilot samples are drawn by strategies of numbers, from numbers or from lanes");
 
-    static_assert(smooth <= 1 || DensityHeuristic<H, Scalar, smooth> || std::same_as<H, OptimalWeights>,
-                  "an allocation weighs by densities; how a partition by points divides samples it does not tell");
+    static_assert(
+        smooth <= 1 || DensityHeuristic<H, Scalar, smooth> || std::same_as<H, OptimalWeights>,
+        "an allocation weighs by densities alone: it does not tell how a partition by points, or weights that ask for "
+        "counts too, divide samples");
 
     LUMIS_HD explicit constexpr Allocation(const H& heuristic, Take<S>&&... techniques)
         : Base{BalanceHeuristic{}, {static_cast<Scalar>(techniques.count)...}, std::move(techniques)...},
