@@ -16,6 +16,7 @@
 #include <limits>
 #include <random>
 #include <span>
+#include <tuple>
 #include <type_traits>
 
 using lumis::BalanceWithFactors;
@@ -96,6 +97,20 @@ TEMPLATE_TEST_CASE("zero, infinity and NaN as with every heuristic", "[heuristic
     const CaughtAssertions caught;
     CHECK(weights(Three{1, nan, infinity}) == Three{0, 0, 0});
     CHECK(caught.count() == 3);
+}
+
+TEST_CASE("factors that a density's type does not hold fail an assertion", "[heuristics]") {
+    const auto asserted = [](double factor, auto density) {
+        const CaughtAssertions caught;
+        std::ignore = lumis::mis_weight(BalanceWithFactors{1.0, factor}, density, density);
+        return caught.count();
+    };
+    for (const double factor : {1e-50, 1e50}) {
+        CHECK(asserted(factor, 1.0f) == 1);
+        CHECK(asserted(factor, 1.0) == 0);
+    }
+    for (const double factor : {0.0, -1.0, HUGE_VAL}) CHECK(asserted(factor, 1.0) == 1);
+    CHECK(asserted(std::nan(""), 1.0) > 0);  // its product with a density is none, too
 }
 
 TEST_CASE("factors in lanes", "[heuristics][lanes]") {

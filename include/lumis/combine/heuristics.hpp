@@ -267,7 +267,7 @@ struct CutoffHeuristic {
 };
 
 // Balance of the densities times a factor for each technique, positive and known at run time: BalanceWithFactors{2.0, 1.0}.
-// The factors' own scale does not matter. variance_aware_factor gives more to a technique whose samples vary little; where
+// The factors' own scale does not matter, as long as the densities' type holds them. variance_aware_factor gives more to a technique whose samples vary little; where
 // that does not make up for what they leave to the others, the variance is above balance's.
 template <std::size_t N>
 struct BalanceWithFactors {
@@ -282,8 +282,9 @@ struct BalanceWithFactors {
         LUMIS_ASSERT(densities.size() == N);
         std::array<R, N> products;
         for (std::size_t k = 0; k < N; ++k) {
-            LUMIS_ASSERT(factors[k] > 0 && std::isfinite(factors[k]));
-            products[k] = static_cast<T>(factors[k]) * densities[k];
+            const T factor = static_cast<T>(factors[k]);
+            LUMIS_ASSERT(factor >= (std::numeric_limits<T>::min)() && factor <= (std::numeric_limits<T>::max)());
+            products[k] = factor * densities[k];
         }
         const std::span<const R, N> of_products{products};
         const R sum = detail::sum_of(of_products, [](R product) { return product; });
