@@ -105,6 +105,25 @@ TEST_CASE("rounds of several threads and of several integrals", "[allocate]") {
     CHECK(std::abs(sum.one_sample_variance({1, 1}) / of_both - 1) <= 1e-12);
 }
 
+TEST_CASE("a pilot sample that is not finite is counted and left out", "[allocate]") {
+    const Interval<double> left{0, 1}, right{1, 2};
+    const auto pilot = [&](double now_and_then) {
+        int call = 0;
+        return piloted(
+            allocate(BalanceHeuristic{}, take(1, left), take(1, right)),
+            [&](double x) { return ++call % 100 == 0 ? now_and_then
+                                   : x < 1           ? 8 * x
+                                                     : x; }, 10'000);
+    };
+    for (const double bad : {std::nan(""), HUGE_VAL}) {
+        auto plan = pilot(bad);
+        CHECK(plan.counts() == pilot(1).counts());
+        CHECK(plan.counts() != Counts{1, 1});
+        plan.merge(plan);
+        CHECK(plan.rejected() == 400);
+    }
+}
+
 TEST_CASE("colours count by luminance or by what is asked for", "[allocate]") {
     const auto f = [](double x) { return glm::dvec3{std::exp(x), 3 * x, 1 / (1 + x)}; };
     auto plan = allocate(BalanceHeuristic{}, take(1, Interval<double>{0, 1}), take(1, Steep{}));

@@ -17,8 +17,10 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
 #include <utility>
 
@@ -88,7 +90,8 @@ class Allocation : private Combination<BalanceHeuristic, S...> {
 
     // A pilot round: draws as many samples of each technique as was given to allocate, and returns the estimate that they make,
     // by the balance heuristic. f is called as by MultiSample::estimate. norm(f(x)) is the number whose variance counts; it may
-    // be negative, and scales with f(x).
+    // be negative, and scales with f(x). A sample of which it, or the density, is not finite is counted in rejected() and enters
+    // nothing but the estimate.
     //
     // A source that yields lanes makes a round in each of them.
     template <class F, class U, class Norm = Luminance>
@@ -141,7 +144,10 @@ class Allocation : private Combination<BalanceHeuristic, S...> {
             delta_sums_[d].second += other.delta_sums_[d].second;
         });
         rounds_ += other.rounds_;
+        rejected_ += other.rejected_;
     }
+
+    [[nodiscard]] LUMIS_HD std::uint64_t rejected() const noexcept { return rejected_; }
 
     // See Forecast.
     [[nodiscard]] LUMIS_HD static Costs costs_from_times(const std::array<double, size>& alone, double together,
@@ -172,6 +178,10 @@ class Allocation : private Combination<BalanceHeuristic, S...> {
     // What one sample of a delta strategy contributes to a round.
     template <std::size_t I>
     LUMIS_HD void record_delta(double contribution) noexcept {
+        if (!std::isfinite(contribution)) {
+            ++rejected_;
+            return;
+        }
         auto& sums = delta_sums_[place<I>()];
         sums.first += contribution;
         sums.second += contribution * contribution * static_cast<double>(counts_[I]);
@@ -188,6 +198,10 @@ class Allocation : private Combination<BalanceHeuristic, S...> {
                 p += counts_[k] * own;
             }
         });
+        if (!std::isfinite(f) || !std::isfinite(p)) {
+            ++rejected_;
+            return;
+        }
         sums_.template add<Scalar>(heuristic_, f, densities, p);
     }
 
@@ -196,6 +210,7 @@ class Allocation : private Combination<BalanceHeuristic, S...> {
     detail::PilotSums<H, smooth> sums_;
     std::array<detail::FirstAndSecond, size - smooth> delta_sums_{};
     double rounds_ = 0;
+    std::uint64_t rejected_ = 0;
 };
 
 // A plan for estimators by a heuristic that is told densities: allocate(PowerHeuristic{}, take(1, bsdf), take(1, light)). A
