@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <random>
 
 using lumis::allocate;
@@ -37,6 +38,11 @@ TEST_CASE("costs and deviations decide between techniques that do not meet", "[a
     CHECK(plan.counts() == Counts{8, 1});
     CHECK(plan.counts({.of_sample = {16, 1}}) == Counts{2, 1});
     CHECK(plan.counts({.of_sample = {1, 4}}, {.most_samples = 17}) == Counts{16, 1});
+    // An estimate with a cost of its own takes as many samples as it may, and none of them is counted to find out.
+    CHECK(plan.counts({.of_estimate = 1e6}, {.most_samples = 36}) == Counts{32, 4});
+    const auto many = plan.counts({.of_estimate = 1e6}, {.most_samples = std::numeric_limits<int>::max()});
+    CHECK(many[0] == 8 * many[1]);
+    CHECK(many[1] > 100'000'000);
     // The first technique's density is asked for at the second's samples, which cost 16 as well then.
     CHECK(plan.counts({.of_sample = {16, 1}, .of_density = {15, 0}}) == Counts{8, 1});
     // What an estimate costs besides is spread over as many samples as are allowed.

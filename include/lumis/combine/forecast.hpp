@@ -109,8 +109,10 @@ class Forecast {
     [[nodiscard]] LUMIS_HD Counts counts(const Costs& costs = {}, const Limits& limits = {}) const noexcept {
         Best best = all_alike();
         for_each_allowed(limits, [&](std::size_t k, const auto& split) {
-            const int drawn = smooth > 0 ? sum_of(split) : 1;
-            for (int scale = 1; scale == 1 || (smooth > 0 && scale * drawn <= limits.most_samples); ++scale) {
+            const int largest = smooth > 0 ? limits.most_samples / sum_of(split) : 1;
+            // Without delta strategies the score falls all the way, or is the same: the largest scale tells.
+            const int step = deltas == 0 && largest > 2 ? largest - 1 : 1;
+            for (int scale = 1;; scale += step) {
                 const auto score = [&](const Amounts& n) {
                     return multi_sample_variance(k, scale, n) * cost(n, costs);
                 };
@@ -129,6 +131,7 @@ class Forecast {
                     });
                 }
                 best.offer(local.score, local.amounts);
+                if (scale > largest - step) break;
             }
         });
         Counts counts{};
