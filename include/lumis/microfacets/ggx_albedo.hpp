@@ -32,8 +32,8 @@ struct GgxLoss {
 
 // The directional albedo, with Fresnel reflectance 1 and height-correlated shadowing: how much of a white sky is reflected to
 // wo, by a fitted function. For one roughness of at most 1 it is at most 0.9 % too large and never too small. For two it is
-// within 3.5 % where one is twice the other, and within 7 % where it is a hundred times. A roughness beyond 1 counts as 1, which
-// reflects more. 0 from below.
+// from 3.7 % too small to 4.5 % too large where one is twice the other, and from 6 % to 7.5 % where it is up to a hundred times. A
+// roughness beyond 1 counts as 1, which reflects more. 0 from below.
 template <Real T, RealOf<T> R = T>
 [[nodiscard]] LUMIS_HD R ggx_albedo(const Ggx<T>& ggx, const Direction<R>& wo) noexcept {
     using Number = scalar_of<T>;
@@ -64,9 +64,10 @@ template <Real T, RealOf<T> R = T>
 //     const glm::vec3 reflected = f * bsdf.ggx().brdf(wo, wi) * ggx_compensation(bsdf.ggx(), wo, f0);
 //     const glm::vec3 weight = f * bsdf.weight(wi) * ggx_compensation(bsdf.ggx(), wo, f0);  // of a sample
 //
-// f is Fresnel's reflectance at the half vector. In a white sky a white metal then reflects between 99.1 % and all, whatever the
-// angle. The density stays as it is: the shape of the lobe does not change. Not reciprocal: wo is the direction that light
-// leaves along, towards the camera; paths from lights ask with the one they leave along as well.
+// f is Fresnel's reflectance at the half vector. In a white sky a white metal of one roughness then reflects between 99.1 % and
+// all, whatever the angle; of two, more than all by as much as their albedo is too small. The density stays as it is: the shape
+// of the lobe does not change. Not reciprocal: wo is the direction that light leaves along, towards the camera; paths from
+// lights ask with the one they leave along as well.
 template <Real T, RealOf<T> R, class Reflectance>
     requires(!std::is_arithmetic_v<Reflectance>)
 [[nodiscard]] LUMIS_HD Reflectance ggx_compensation(const Ggx<T>& ggx, const Direction<R>& wo,
