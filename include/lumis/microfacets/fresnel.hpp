@@ -48,22 +48,29 @@ struct IndexRatio {
         return {inverse, (1 - eta) * (1 + eta) * inverse * inverse};
     }
 
-    // eta cos_t by Snell's law, for a cosine of at least 0; 0 where all is reflected.
+    // eta cos_t by Snell's law, for a cosine of at least 0; 0 where all is reflected. Its square is eta^2 - sin_i^2, or the same
+    // by excess and cosine: what cancels the less.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_INLINE R eta_cos_t(R cos_i) const noexcept {
-        return real::sqrt_or_zero(R(cos_i * cos_i + excess));
+        const R by_sine = eta * eta - squared_sine(cos_i), by_cosine = cos_i * cos_i + excess;
+        return real::sqrt_or_zero(real::select(R(excess) < scalar_of<R>(-0.5), by_sine, by_cosine));
     }
 
-    // r_s = -excess / (cos_i + eta cos_t)^2 and r_p = excess ((eta^2 + 1) cos_i^2 - 1) / (eta^2 cos_i + eta cos_t)^2: the
+    // r_s = -excess / (cos_i + eta cos_t)^2 and r_p = excess (eta^2 cos_i^2 - sin_i^2) / (eta^2 cos_i + eta cos_t)^2: the
     // textbook's fractions, extended by their divisors.
     template <RealOf<T> R = T>
     [[nodiscard]] LUMIS_INLINE R reflected(R cos_i, R eta_cos_t) const noexcept {
         const R s = squared(R(cos_i + eta_cos_t)), p = squared(R(eta * eta * cos_i + eta_cos_t));
-        const R brewster = (excess + 2) * cos_i * cos_i - 1;
+        const R brewster = eta * eta * cos_i * cos_i - squared_sine(cos_i);
         const R r_s = real::divide(R(excess), real::divisor_where(s > 0, s));
         const R r_p = real::divide(R(excess * brewster), real::divisor_where(p > 0, p));
         const auto is_total = eta_cos_t <= 0 && excess < 0;
         return real::select(is_total, R(scalar_of<R>(1)), at_most_one(scalar_of<R>(0.5) * (r_s * r_s + r_p * r_p)));
+    }
+
+    template <Real R>
+    [[nodiscard]] LUMIS_INLINE static R squared_sine(R cosine) noexcept {
+        return (1 - cosine) * (1 + cosine);
     }
 
     // 1 - r_s^2 and 1 - r_p^2, each a fraction of the same divisors, without the difference.
