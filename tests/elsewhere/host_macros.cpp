@@ -1,5 +1,5 @@
-// Macros as hosts have them, of windows.h and of older renderers, before the first include. <lumis/lumis.hpp> and
-// <lumis/batch/batch.hpp> set aside those that are names in them, and bring them back.
+// Macros as hosts have them, of windows.h and of older renderers, before the first include. <lumis/lumis.hpp>,
+// <lumis/batch/batch.hpp> and <lumis/qmc/sobol.hpp> set aside those that are names in them, and bring them back.
 #if defined(OBJECTS)
 #define min MINIMUM
 #define max MAXIMUM
@@ -21,8 +21,9 @@
 #endif
 
 #include <lumis/lumis.hpp>
-#ifdef BATCH  // the single header holds it
+#ifdef BATCH  // the single header holds them
 #include <lumis/batch/batch.hpp>
+#include <lumis/qmc/sobol.hpp>
 #endif
 
 #if defined(OBJECTS)

@@ -3,6 +3,14 @@
 // to fill, no state but the place. Included by name.
 #pragma once
 
+// Macros of a host's that are names here are set aside up to the last line.
+#pragma push_macro("D")
+#pragma push_macro("Real")
+#pragma push_macro("real")
+#undef D
+#undef Real
+#undef real
+
 #include "lumis/core/lanes.hpp"
 #include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
@@ -105,3 +113,7 @@ class Sobol {
 };
 
 }  // namespace lumis::LUMIS_ISA
+
+#pragma pop_macro("D")
+#pragma pop_macro("Real")
+#pragma pop_macro("real")
