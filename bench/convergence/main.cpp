@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
     app.add_option("--output", settings.output, "Folder for the results and their page")->capture_default_str();
     app.add_option("--problem", settings.problems, "Only these, see --list")->check(CLI::IsMember(all_problems()));
     app.add_flag("--list", list_only, "Show the problems");
-    app.add_flag("--all", thorough, "Take a quarter of an hour for more seeds, time and pixels, unless these are given");
+    app.add_flag("--all", thorough, "Take 15 minutes for more seeds, time and pixels, unless these are given");
     const auto* seeds_option = app.add_option("--seeds", seeds, "Independent runs of each estimator")
                                    ->check(CLI::Range(2, 1000))
                                    ->capture_default_str();
