@@ -2,8 +2,8 @@
 //
 //   LUMIS_HD               in front of a function that is compiled for CUDA devices as well as for the host. The next three
 //                          contain it
-//   LUMIS_INLINE           part of its caller, whatever a compiler thinks of its size; in builds that are not optimised, or look
-//                          for wrong addresses and races, a call: they compile faster
+//   LUMIS_INLINE           part of its caller, whatever a compiler thinks of its size; a call in builds that are not optimised,
+//                          which compile faster so
 //   LUMIS_NOINLINE         a call, so that what is rare does not crowd what is frequent
 //   LUMIS_COLD             the same, and rarely run
 //   LUMIS_HAS_BUILTIN(f)   whether the compiler has the built-in function f
@@ -36,16 +36,8 @@
 #define LUMIS_HD
 #endif
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define LUMIS_IS_SANITIZED
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define LUMIS_IS_SANITIZED
-#endif
-#endif
-
 #if defined(__GNUC__) || defined(__clang__)
-#if (defined(__OPTIMIZE__) || defined(__CUDACC__)) && !defined(LUMIS_IS_SANITIZED)
+#if defined(__OPTIMIZE__) || defined(__CUDACC__)
 #define LUMIS_INLINE [[gnu::always_inline]] LUMIS_HD
 #else
 #define LUMIS_INLINE LUMIS_HD
