@@ -191,3 +191,19 @@ TEMPLATE_TEST_CASE("arguments that are right raise no floating-point exception i
     CHECK(std::fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) == 0);
     CHECK((unit && frame && nan));
 }
+
+// Found by a fuzzer: the sum over a fan of triangles was finite, the weight between two of its corners was not.
+TEST_CASE("a light by cosine with an edge and a normal beyond all numbers has densities", "[wrong_arguments]") {
+    using V = glm::vec3;
+    const CaughtAssertions caught;
+    const lumis::AreaLight<lumis::Parallelogram<float>, lumis::ByCosine> light{
+        {V(-4.65661287e-10f, -4.65661287e-10f, 0.831372559f), V(-3.01594846e-05f, 0.00781249953f, 3.40282347e+38f),
+         V(-4.65661287e-10f)},
+        V(-4.65661287e-10f, -4.65661287e-10f, 0.8359375f),
+        V(-0.00656127976f, 8.94023106e-06f, 2.16172782e+19f)};
+    for (int k = 0; k <= 1000; ++k) {
+        const auto drawn = light.sample({0, static_cast<float>(k) / 1000});
+        CHECK((drawn.pdf >= 0 && drawn.pdf <= std::numeric_limits<float>::max()));
+        CHECK(light.pdf(drawn.value) >= 0);
+    }
+}

@@ -41,9 +41,9 @@ template <class S>
     [[nodiscard]] LUMIS_INLINE LightSample<Direction<R>, R> sample(glm::vec<2, R> u) const noexcept {
         if (map_.empty()) return {};
         const auto [w, pdf] = map_.sample(u);
-        // Rounding may put a direction below the horizon.
-        const auto above = glm::dot(w, Direction<R>(normal_)) > 0;
-        return detail::seen_on_plane(w, R(real::select(above, pdf, 0)), view_.meet_plane(w).distance);
+        // Rounding may put a direction below the horizon, and edges out of range may leave no density.
+        const auto is_drawn = glm::dot(w, Direction<R>(normal_)) > 0 && pdf > 0;
+        return detail::seen_on_plane(w, R(real::select(is_drawn, pdf, 0)), view_.meet_plane(w).distance);
     }
 
     template <RealOf<T> R = T>
@@ -57,7 +57,8 @@ template <class S>
 
     // The same, for hosts that know already that w meets the light.
     [[nodiscard]] LUMIS_HD T pdf_from_hit(const Point& w) const noexcept {
-        return !map_.empty() && glm::dot(w, normal_) > 0 ? map_.pdf(w) : T(0);
+        const T density = !map_.empty() && glm::dot(w, normal_) > 0 ? map_.pdf(w) : T(0);
+        return density > 0 ? density : T(0);
     }
 
     [[nodiscard]] LUMIS_HD glm::vec<2, T> invert(const Point& w) const noexcept {
