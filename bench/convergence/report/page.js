@@ -22,7 +22,8 @@ for (const holder of document.querySelectorAll(".holder")) {
   function tell() {
     const box = place.getBoundingClientRect(), first = headers[0].getBoundingClientRect().right;
     const names = cells => cells.map(cell => cell.innerText.replace(/\s+/g, " ").trim()).join(", ");
-    const right = headers.slice(1).filter(cell => cell.getBoundingClientRect().right > box.right + 1);
+    const end = box.left + place.clientLeft + place.clientWidth;  // without a scroll bar
+    const right = headers.slice(1).filter(cell => cell.getBoundingClientRect().right > end + 0.5);
     const left = headers.slice(1).filter(cell => cell.getBoundingClientRect().left < first - 1);
     const below = rows.filter(row => row.getBoundingClientRect().bottom > box.bottom + 1).length;
     const hidden = [left.length && `← ${names(left)}`, right.length && `${names(right)} →`,
