@@ -52,7 +52,7 @@ void check_by_cosine(Measured& measured, const Shape& shape, Effort effort) {
     if (seen.size() < 3) return check_draws_nothing<T>(measured, light);
     QuadVector middle{0, 0, 0};
     for (const auto& corner : seen) middle = middle + corner;
-    // As of a triangle by solid angle: a direction's rounding, or in nearly a hemisphere that of its versine.
+    // The slack of a triangle by solid angle: a direction's rounding, or in nearly a hemisphere that of its versine.
     const Quad slack = 8 * std::sqrt(double{std::numeric_limits<T>::epsilon()});
     for_each_uniform<T>(effort.quick ? 1 : 20, [&](const auto& u) {
         const auto sample = light.sample(u);

@@ -60,7 +60,7 @@ class GgxDielectric : GgxReflection<T> {
         return (1 - reflectance) * visible(*wm) * jacobian(wi, *wm);
     }
 
-    // Of radiance.
+    // Scattered radiance per unit of irradiance.
     [[nodiscard]] T bsdf(const Direction<T>& wi) const noexcept {
         const auto wm = normal(wi);
         if (!wm) return 0;

@@ -161,7 +161,7 @@ TEST_CASE("a colour's components have weights of their own", "[cross_fitted]") {
 
 namespace {
 
-// As many numbers in each lane, one lane's after the other's.
+// Each lane has as many numbers, one lane's after the other's.
 struct LaneUniforms {
     using Lanes = lumis::Lanes<double, 4>;
     std::array<CountingUniforms<double>, Lanes::size>& sources;

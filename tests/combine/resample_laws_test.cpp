@@ -91,7 +91,7 @@ TEST_CASE("the target decides what is integrated and how well", "[resample]") {
     check<double>(
         resample([](double x) { return x < 0.9 ? 0 : 1; }, take(8, everywhere)),
         [](double x) { return x < 0.9 ? 0 : 80; }, Step::integral_above);
-    // Without variance: the target over the density is the same everywhere, and so is f over the target.
+    // No variance is left: the target over the density is the same everywhere, and so is f over the target.
     lumis::Uniforms<std::mt19937_64, double> uniforms{std::mt19937_64{1}};
     const auto perfect = resample([](double x) { return 1 + 2 * x; }, take(5, Ramp<double>{}));
     for (int i = 0; i < 100; ++i) {

@@ -299,7 +299,7 @@ TEMPLATE_TEST_CASE("estimators raise no floating-point exception", "[exceptions]
     });
 }
 
-// From the first round on: where there are no others, nothing is known of the weights and of the error.
+// Rounds are asked about from the first on: where there are no others, nothing is known of the weights and of the error.
 TEMPLATE_TEST_CASE("optimal weights raise no floating-point exception", "[exceptions]", float, double) {
     using T = TestType;
     using V = glm::vec<3, T>;

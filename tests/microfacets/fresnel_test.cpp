@@ -101,7 +101,7 @@ TEST_CASE("the average reflectance of glass", "[fresnel]") {
     using boost::math::quadrature::gauss_kronrod;
     const auto average = [](double eta, double side) {
         const auto weighted = [&](double mu) { return 2 * mu * lumis::fresnel_dielectric(side * mu, eta); };
-        // From below with its kink at the critical angle.
+        // The kink of light from below is at the critical angle.
         const double critical = side < 0 ? std::sqrt(1 - 1 / (eta * eta)) : 0;
         const auto substituted = [&](double x) { return weighted(critical + (1 - critical) * x * x) * 2 * x; };
         return critical * critical +

@@ -111,7 +111,7 @@ TEMPLATE_TEST_CASE("a white metal reflects all of a white sky", "[ggx_albedo]", 
     }
 }
 
-// With Schlick's Fresnel term as well, for no colour is there more light than came.
+// No colour returns more light than came, with Schlick's Fresnel term as well.
 TEST_CASE("metals with Fresnel reflectance reflect no more than all", "[ggx_albedo]") {
     for (const double f0 : {0.04, 0.5, 1.0}) {
         for (const double alpha : {0.1, 0.5, 1.0}) {

@@ -124,7 +124,7 @@ TEST_CASE("coordinates are scrambled independently, in a set and across sets", "
     constexpr int draws = 4000;
     constexpr std::size_t coordinates = 12;
     using Signs = std::array<double, coordinates>;
-    // Whether a coordinate's second digit is 1. Of a point and the next one it differs or not as the scrambling says.
+    // Whether a coordinate's second digit is 1. It differs between a point and the next one as the scrambling says.
     const auto second_digits = [](std::uint64_t randomisation, std::uint32_t index) {
         lumis::Sobol<double> points{randomisation, index};
         Signs signs;
@@ -150,7 +150,7 @@ TEST_CASE("coordinates are scrambled independently, in a set and across sets", "
 }
 
 TEST_CASE("sets are shuffled against each other", "[sobol]") {
-    // In one order, the first digits of two sets would agree at all points or at none. For the estimate to fall by stratification
+    // Two sets in one order: their first digits would agree at all points or at none. For the estimate to fall by stratification
     // alone, there is none: of 64 points as of 32 random pairs.
     lumis::RunningMoments<double> squares;
     for (std::uint64_t i = 0; i < 500; ++i) {

@@ -110,7 +110,7 @@ class Forecast {
         Best best = all_alike();
         for_each_allowed(limits, [&](std::size_t k, const auto& split) {
             const int largest = smooth > 0 ? limits.most_samples / sum_of(split) : 1;
-            // Without delta strategies the score falls all the way, or is the same: the largest scale tells.
+            // The score without delta strategies falls all the way, or is the same: the largest scale tells.
             const int step = deltas == 0 && largest > 2 ? largest - 1 : 1;
             for (int scale = 1;; scale += step) {
                 const auto score = [&](const Amounts& n) {

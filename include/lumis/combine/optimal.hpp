@@ -64,7 +64,7 @@ class OneSampleRounds : public OneSample<BalanceHeuristic, S...> {
     using Base::Base;
     using typename Base::Scalar;
 
-    // As MultiSampleRounds::round. Spends what OneSample::estimate does.
+    // The same as MultiSampleRounds::round. Spends what OneSample::estimate does.
     template <class F, class U>
         requires UniformSource<U, RealFrom<U, Scalar>>
     [[nodiscard]] LUMIS_INLINE auto round(F&& f, U&& uniforms) const {

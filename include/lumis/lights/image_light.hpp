@@ -25,8 +25,8 @@
 
 namespace lumis::LUMIS_ISA {
 
-// For hosts that look the image up bilinearly, clamped at its edges, with texel centres at half integers: the mean of that
-// function over each texel. A table of these leaves no point out that the texels beside a dark one light up. Throws
+// The mean over each texel of what a host sees that looks the image up bilinearly, clamped at its edges, with texel centres at
+// half integers. A table of these leaves no point out that the texels beside a dark one light up. Throws
 // std::invalid_argument for what PiecewiseConstant2D does.
 template <std::floating_point T>
 [[nodiscard]] std::vector<T> bilinear_means(std::integral auto width, std::integral auto height,

@@ -121,8 +121,8 @@ template <Real R>
     const R c = real::abs(cos_i);
     // The squared index is n2 + 1 + i m2.
     const R n2 = (eta - 1) * (eta + 1) - k * k, m2 = 2 * eta * k;
-    // w^2 = n2 + cos^2 + i m2, and its root with a positive real part. Of the two parts the larger is a sum; the smaller
-    // follows from their product, m2 / 2.
+    // w^2 = n2 + cos^2 + i m2, and its root with a positive real part. The larger of the two parts is a sum; the
+    // smaller follows from their product, m2 / 2.
     const R square = n2 + c * c;
     const R larger = real::sqrt(R(scalar_of<R>(0.5) * (real::sqrt(R(square * square + m2 * m2)) + real::abs(square))));
     const R smaller = real::quotient_where(larger > 0, R(m2 / 2), larger);
