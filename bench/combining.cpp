@@ -69,20 +69,6 @@ void add_many(const std::string& name, const Heuristic& heuristic, std::size_t t
                 });
 }
 
-// A host's sampler whose numbers are there already.
-template <class T>
-struct Prepared {
-    const std::vector<T>& numbers;
-    std::size_t position = 0;
-
-    template <int N>
-    glm::vec<N, T> next() {
-        glm::vec<N, T> u;
-        for (int i = 0; i < N; ++i) u[i] = numbers[position++ % batch];
-        return u;
-    }
-};
-
 // Diffuse reflection of a sphere light.
 template <class T>
 struct Reflectance {

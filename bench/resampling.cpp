@@ -14,20 +14,6 @@
 
 namespace {
 
-// A host's sampler whose numbers are there already.
-template <class T>
-struct Numbers {
-    const std::vector<T>& numbers;
-    std::size_t position = 0;
-
-    template <int N>
-    glm::vec<N, T> next() {
-        glm::vec<N, T> u;
-        for (int i = 0; i < N; ++i) u[i] = numbers[position++ % batch];
-        return u;
-    }
-};
-
 template <class T, class Reservoir>
 void add_stream(const std::string& form) {
     add_form<T>("reservoir/stream/" + form, ready(Reservoir{}), lazily([] { return Uniforms<T>{few}; }),
@@ -59,7 +45,7 @@ void add_all() {
         const std::string name = "resample/square_" + std::to_string(candidates);
         const auto estimates = [=](auto estimate) {
             return [=](const auto& strategy, const Uniforms<T>& u, std::size_t, Results<T>& out) {
-                Numbers<T> uniforms{u.x};
+                Prepared<T> uniforms{u.x};
                 for (std::size_t i = 0; i < batch; ++i) {
                     one_at_a_time(i);
                     out.x[i] = estimate(strategy, uniforms);

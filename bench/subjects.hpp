@@ -38,6 +38,20 @@ struct Uniforms {
     }
 };
 
+// A host's sampler whose numbers are there already.
+template <class T>
+struct Prepared {
+    const std::vector<T>& numbers;
+    std::size_t position = 0;
+
+    template <int N>
+    glm::vec<N, T> next() {
+        glm::vec<N, T> u;
+        for (int i = 0; i < N; ++i) u[i] = numbers[position++ % batch];
+        return u;
+    }
+};
+
 template <class T>
 struct Directions {
     std::vector<T> x, y, z;

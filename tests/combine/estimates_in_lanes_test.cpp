@@ -1,5 +1,6 @@
 // Whole estimates in lanes are those of numbers, lane by lane.
 #include "catch.hpp"
+#include "even_in_lanes.hpp"
 #include "instrumented.hpp"
 #include "strategies.hpp"
 #include <lumis/batch/batch.hpp>
@@ -69,34 +70,6 @@ template <class L>
     for (std::size_t i = 0; i < L::size; ++i) lanes.set(i, first + static_cast<typename L::Lane>(i));
     return lanes;
 }
-
-// Evenly over [0, width], of a width for each lane if R is made of lanes.
-template <lumis::Real R>
-struct Interval {
-    using Scalar = R;
-    using Point = R;
-    using Measure = lumis::measure::Lebesgue;
-    static constexpr int dimensions = 1;
-
-    R width;
-
-    [[nodiscard]] lumis::Sample<R, R> sample(const glm::vec<1, R>& u) const noexcept {
-        return {u.x * width, 1 / width};
-    }
-    [[nodiscard]] R pdf(const R& x) const noexcept {
-        return lumis::real::select(x >= 0 && x <= width, R(1 / width), lumis::scalar_of<R>(0));
-    }
-};
-
-// Yields the same lanes again and again.
-template <class L>
-struct Same {
-    L u;
-    template <int N>
-    [[nodiscard]] glm::vec<N, L> next() const {
-        return glm::vec<N, L>(u);
-    }
-};
 
 // A spectrum of a host, of numbers or lanes.
 template <class R>
@@ -277,9 +250,9 @@ TEMPLATE_TEST_CASE("strategies that are made of lanes combine, and each lane has
     const auto f = [](const auto& x) { return x * x + 1; };
     // Calls estimate(intervals, probability) with those of all lanes, and with those of each.
     const auto check_each = [&](const auto& estimate) {
-        const L lanes = estimate(Interval<L>{width}, Interval<L>{L(T(2))}, probability, Same<L>{u});
+        const L lanes = estimate(EvenUpTo<L>{width}, EvenUpTo<L>{L(T(2))}, probability, Same<L>{u});
         for (std::size_t i = 0; i < L::size; ++i) {
-            const T alone = estimate(Interval<T>{width[i]}, Interval<T>{T(2)}, probability[i], Same<T>{u[i]});
+            const T alone = estimate(EvenUpTo<T>{width[i]}, EvenUpTo<T>{T(2)}, probability[i], Same<T>{u[i]});
             CHECK(std::abs(lanes[i] - alone) <= 8 * std::numeric_limits<T>::epsilon() * alone);
         }
     };

@@ -65,7 +65,7 @@ TEMPLATE_TEST_CASE("the variance of every split is that of its estimator", "[for
         }
     };
     check(exponential, Interval<double>{0, 1}, Steep{}, 0.06);
-    check([](double x) { return x < 0.5 ? 4 + x : x; }, Interval<double>{0, 1}, HalfOfHalf{}, 0.03);
+    check([](double x) { return x < 0.5 ? 4 + x : x; }, Interval<double>{0, 1}, HalfTheTime{}, 0.03);
 }
 
 TEST_CASE("e^x by the densities 1 and 2 x, the second of four times the cost", "[forecast]") {
@@ -115,7 +115,7 @@ TEST_CASE("optimal weights draw the cheap technique and keep the other as a cont
     // Draws that yield nothing count, and a control variate that has such does not integrate to 1.
     const auto f = [](double x) { return x < 0.5 ? 4 + x : x; };
     const auto nothing =
-        piloted(allocate(lumis::OptimalWeights{}, take(1, Interval<double>{0, 1}), take(2, HalfOfHalf{})), f, 20'000);
+        piloted(allocate(lumis::OptimalWeights{}, take(1, Interval<double>{0, 1}), take(2, HalfTheTime{})), f, 20'000);
     CHECK(std::abs(nothing.forecast().multi_sample_variance({1, 1}) / 1.546875 - 1) <= 0.02);
     CHECK(nothing.forecast().multi_sample_variance({1, 0}) > 1e300);
     CHECK(nothing.counts({.of_sample = {1, 1000}}, {.covers = {true, false}})[1] > 0);
@@ -132,11 +132,11 @@ TEST_CASE("three techniques and more", "[forecast]") {
 
     // Three that do, one of which yields nothing at times.
     const auto overlapping =
-        piloted(allocate(BalanceHeuristic{}, take(1, Interval<double>{0, 1}), take(1, Steep{}), take(1, HalfOfHalf{})),
+        piloted(allocate(BalanceHeuristic{}, take(1, Interval<double>{0, 1}), take(1, Steep{}), take(1, HalfTheTime{})),
                 exponential, 40'000);
     for (const std::array n : {std::array{1, 1, 1}, {1, 4, 2}, {2, 0, 1}}) {
         const auto several = multi_sample(BalanceHeuristic{}, take(n[0], Interval<double>{0, 1}), take(n[1], Steep{}),
-                                          take(n[2], HalfOfHalf{}));
+                                          take(n[2], HalfTheTime{}));
         const double measured =
             moments_of<double>([&](auto& u) { return several.estimate(exponential, u); }, 40'000, 5).variance();
         CHECK(std::abs(overlapping.forecast().multi_sample_variance(n) / measured - 1) <= 0.06);
@@ -154,7 +154,7 @@ TEST_CASE("three techniques and more", "[forecast]") {
 }
 
 TEST_CASE("costs from times are those that the times were made of", "[forecast]") {
-    using Plan = decltype(allocate(BalanceHeuristic{}, take(1, Steep{}), take(1, TwoPoints{}), take(1, HalfOfHalf{}),
+    using Plan = decltype(allocate(BalanceHeuristic{}, take(1, Steep{}), take(1, TwoPoints{}), take(1, HalfTheTime{}),
                                    take(1, Steep{})));
     const std::array samples{3.0, 2.0, 7.0, 5.0}, densities{0.5, 0.0, 2.0, 1.0};
     const double together = 17 + 2 * 3.5;

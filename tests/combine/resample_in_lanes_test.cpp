@@ -1,6 +1,7 @@
 // Resampled estimates in lanes are those of numbers, lane by lane.
 #include "assertions.hpp"
 #include "catch.hpp"
+#include "even_in_lanes.hpp"
 #include <lumis/batch/batch.hpp>
 #include <lumis/combine/resample.hpp>
 #include <lumis/core/lanes.hpp>
@@ -82,31 +83,6 @@ TEMPLATE_TEST_CASE("estimates in lanes are those of numbers", "[resample][lanes]
 }
 
 using Four = lumis::Lanes<double, 4>;
-struct Same {
-    Four u;
-    template <int N>
-    [[nodiscard]] glm::vec<N, Four> next() const {
-        return glm::vec<N, Four>(u);
-    }
-};
-
-// A width of its own in each lane.
-template <class R>
-struct Interval {
-    using Scalar = R;
-    using Point = R;
-    using Measure = lumis::measure::Lebesgue;
-    static constexpr int dimensions = 1;
-
-    R width;
-
-    [[nodiscard]] lumis::Sample<R, R> sample(const glm::vec<1, R>& u) const noexcept {
-        return {u.x * width, 1 / width};
-    }
-    [[nodiscard]] R pdf(const R& x) const noexcept {
-        return lumis::real::select(x >= 0 && x <= width, R(1 / width), lumis::scalar_of<R>(0));
-    }
-};
 
 TEST_CASE("strategies that are made of lanes are resampled", "[resample][lanes]") {
     const Four widths = Four::of_lanes([](auto i) { return 1.0 + static_cast<double>(i); });
@@ -115,7 +91,7 @@ TEST_CASE("strategies that are made of lanes are resampled", "[resample][lanes]"
     const auto f = [](const auto& x) { return x * x + 1; };
     const auto estimate = [&](const auto& width, const auto& wide, auto& uniforms) {
         using R = std::remove_cvref_t<decltype(width)>;
-        const Interval<R> own{width}, same{wide};
+        const EvenUpTo<R> own{width}, same{wide};
         return resample(lumis::PairwiseWeights{}, target, take(2, own), take(1, same), take(1, own))
                    .estimate(f, uniforms) +
                resample(target, 3, choose(0.3, own), choose(0.7, same)).estimate(f, uniforms);

@@ -1,6 +1,7 @@
 // Strategies on the line for pilots, and plans that have had theirs.
 #pragma once
 
+#include "optimal_subjects.hpp"
 #include "z_test.hpp"
 #include <lumis/core/strategy.hpp>
 
@@ -20,19 +21,6 @@ struct Steep {
         return {x, pdf(x)};
     }
     [[nodiscard]] double pdf(double x) const noexcept { return x >= 0 && x <= 1 ? 2 * x : 0; }
-};
-
-// Evenly over [0, 1/2), by half of the uniforms; the others yield nothing.
-struct HalfOfHalf {
-    using Scalar = double;
-    using Point = double;
-    using Measure = lumis::measure::Lebesgue;
-    static constexpr int dimensions = 1;
-
-    [[nodiscard]] lumis::Sample<double, double> sample(glm::dvec1 u) const noexcept {
-        return u.x < 0.5 ? lumis::Sample<double, double>{u.x, 1} : lumis::Sample<double, double>{};
-    }
-    [[nodiscard]] double pdf(double x) const noexcept { return x >= 0 && x < 0.5 ? 1 : 0; }
 };
 
 // Two points of probability 1/4 and 3/4.
