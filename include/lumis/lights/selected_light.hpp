@@ -23,10 +23,10 @@ struct ToLight {
     Point direction{};
 };
 
-// Meant for many lights, and as a source of candidates for resample. An integrand is told light x.index and the direction x.direction, and
-// returns what this light alone contributes; where another hides it, 0. Measure: counting over the lights, times solid angle. u is
-// that of the set. Samples have the distance to the light, and its surface if it tells one. Strategies over directions do not
-// compose with it: their points are others. Set is a LightSet, and may be a reference, see Held.
+// Meant for many lights, and as a source of candidates for resample. An integrand is told light x.index and the direction
+// x.direction, and returns what this light alone contributes; where another hides it, 0. Measure: counting over the lights, times
+// solid angle. u is that of the set. Samples have the distance to the light, and its surface if it tells one. Strategies over
+// directions do not compose with it: their points are others. Set is a LightSet, and may be a reference, see Held.
 template <class Set>
 class SelectedLight {
     using Held = std::remove_cvref_t<Set>;
