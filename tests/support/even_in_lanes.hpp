@@ -31,3 +31,5 @@ struct Same {
         return glm::vec<N, L>(u);
     }
 };
+template <class L>
+Same(L) -> Same<L>;
