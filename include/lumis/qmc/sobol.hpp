@@ -71,25 +71,33 @@ class Sobol {
         }
     }();
 
+    // Shuffling a sequence is scrambling its indices: aligned runs of 2^k points stay together, in another order. Loops over
+    // lanes are innermost, for compilers to make vectors of them.
     LUMIS_INLINE constexpr void draw_set() noexcept {
-        const std::uint64_t key = detail::derived(key_, set_++);
-        if constexpr (std::floating_point<R>) {
-            draw(key, index_, [this](std::size_t d, T u) { coordinates_[d] = u; });
-        } else {
+        const std::uint64_t key = detail::derived(key_, set_++), key_of_order = detail::derived(key, 0);
+        std::uint32_t digits[detail::sobol_dimensions][lanes] = {}, order[lanes] = {};
+        for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+            order[lane] = detail::flipped_by_lower_bits(detail::reversed_bits(index_ + lane), key_of_order);
+        }
+        detail::reversed_sobol_points(order, lanes <= 16 && index_ % lanes == 0, digits);
+        for (std::size_t d = 0; d < detail::sobol_dimensions; ++d) {
+            const std::uint64_t key_of_dimension = detail::derived(key, d + 1);
+            T u[lanes] = {};
             for (std::uint32_t lane = 0; lane < lanes; ++lane) {
-                draw(key, index_ + lane, [this, lane](std::size_t d, T u) { coordinates_[d].set(lane, u); });
+                const std::uint32_t scrambled =
+                    detail::reversed_bits(detail::flipped_by_lower_bits(digits[d][lane], key_of_dimension));
+                u[lane] = uniform(scrambled, key_of_dimension);
             }
+            coordinates_[d] = in_lanes(u);
         }
         used_ = 0;
     }
 
-    // Shuffling a sequence is scrambling its indices: aligned runs of 2^k points stay together, in another order.
-    template <class Keep>
-    LUMIS_INLINE static constexpr void draw(std::uint64_t key, std::uint32_t index, const Keep& keep) noexcept {
-        const auto point = detail::sobol_point(detail::owen_scrambled(index, detail::derived(key, 0)));
-        for (std::size_t d = 0; d < detail::sobol_dimensions; ++d) {
-            const std::uint64_t key_of_dimension = detail::derived(key, d + 1);
-            keep(d, uniform(detail::owen_scrambled(point[d], key_of_dimension), key_of_dimension));
+    LUMIS_INLINE static constexpr R in_lanes(const T* u) noexcept {
+        if constexpr (std::floating_point<R>) {
+            return *u;
+        } else {
+            return R::load(u);
         }
     }
 

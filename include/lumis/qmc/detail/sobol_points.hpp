@@ -30,15 +30,27 @@ using SobolPoint = std::array<std::uint32_t, sobol_dimensions>;
     return v;
 }
 
-// Sums of directions for each value of four digits of an index, so that a point is a sum of eight.
+// The digits the other way round: what scrambling works on.
+[[nodiscard]] LUMIS_INLINE constexpr std::uint32_t reversed_bits(std::uint32_t x) noexcept {
+    x = x >> 16 | x << 16;
+    x = (x >> 8 & 0x00ff00ffu) | (x & 0x00ff00ffu) << 8;
+    x = (x >> 4 & 0x0f0f0f0fu) | (x & 0x0f0f0f0fu) << 4;
+    x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
+    return (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
+}
+
+// Sums of reversed directions for each value of four digits of a reversed index, so that a point is a sum of eight.
 [[nodiscard]] constexpr std::array<std::array<SobolPoint, 16>, 8> sobol_sums() noexcept {
     std::array<std::array<SobolPoint, 16>, 8> sums{};
     const auto directions = sobol_directions();
     for (std::size_t group = 0; group < sums.size(); ++group) {
         for (unsigned digits = 1; digits < 16; ++digits) {
             const auto lowest = static_cast<std::size_t>(std::countr_zero(digits));
-            const SobolPoint &others = sums[group][digits & (digits - 1)], &direction = directions[4 * group + lowest];
-            for (std::size_t d = 0; d < sobol_dimensions; ++d) sums[group][digits][d] = others[d] ^ direction[d];
+            const SobolPoint &others = sums[group][digits & (digits - 1)],
+                             &direction = directions[31 - (4 * group + lowest)];
+            for (std::size_t d = 0; d < sobol_dimensions; ++d) {
+                sums[group][digits][d] = others[d] ^ reversed_bits(direction[d]);
+            }
         }
     }
     return sums;
@@ -48,21 +60,38 @@ using SobolPoint = std::array<std::uint32_t, sobol_dimensions>;
 inline constexpr auto sums_of_directions = sobol_sums();
 #endif
 
-// CUDA devices have no static arrays of the host to refer to: there each digit's directions are constants in the code.
-[[nodiscard]] LUMIS_INLINE constexpr SobolPoint sobol_point(std::uint32_t index) noexcept {
-    SobolPoint point{};
+// Adds the directions that four digits of a reversed index select. CUDA devices have no static arrays of the host to refer to:
+// there each digit's directions are constants in the code.
+template <std::size_t Group>
+LUMIS_INLINE constexpr void add_directions(SobolPoint& point, std::uint32_t reversed_index) noexcept {
 #ifdef __CUDACC__
-    for_each_index<32>([&point, index](auto k) {
-        constexpr SobolPoint direction = sobol_directions()[k];
-        for (std::size_t d = 0; d < sobol_dimensions; ++d) point[d] ^= (index >> k & 1) != 0 ? direction[d] : 0;
+    for_each_index<4 * sobol_dimensions>([&point, reversed_index](auto i) {
+        constexpr std::size_t digit = 4 * Group + i / sobol_dimensions, d = i % sobol_dimensions;
+        constexpr std::uint32_t direction = reversed_bits(sobol_directions()[31 - digit][d]);
+        point[d] ^= (reversed_index >> digit & 1) != 0 ? direction : 0;
     });
 #else
-    for (std::size_t group = 0; group < sums_of_directions.size(); ++group) {
-        const SobolPoint& part = sums_of_directions[group][index >> 4 * group & 15];
-        for (std::size_t d = 0; d < sobol_dimensions; ++d) point[d] ^= part[d];
-    }
+    const SobolPoint& part = sums_of_directions[Group][reversed_index >> 4 * Group & 15];
+    for (std::size_t d = 0; d < sobol_dimensions; ++d) point[d] ^= part[d];
 #endif
-    return point;
+}
+
+// The points of L places, all with reversed digits. Places that differ in their first four digits alone, the last when
+// reversed, as those of an aligned run do, share all other directions.
+template <std::size_t L>
+LUMIS_INLINE constexpr void reversed_sobol_points(const std::uint32_t (&places)[L], bool is_run,
+                                                  std::uint32_t (&digits)[sobol_dimensions][L]) noexcept {
+    constexpr std::size_t last = 7;
+    SobolPoint shared{};
+    for (std::size_t lane = 0; lane < L; ++lane) {
+        if (lane == 0 || !is_run) {
+            shared = {};
+            for_each_index<last>([&](auto group) { add_directions<group>(shared, places[lane]); });
+        }
+        SobolPoint point = shared;
+        add_directions<last>(point, places[lane]);
+        for (std::size_t d = 0; d < sobol_dimensions; ++d) digits[d][lane] = point[d];
+    }
 }
 
 // A bijection of 64 bits that flips each bit of the result with probability 1/2 when one of its argument flips: the
@@ -76,14 +105,6 @@ inline constexpr auto sums_of_directions = sobol_sums();
 // The n-th of many keys that one key yields.
 [[nodiscard]] LUMIS_INLINE constexpr std::uint64_t derived(std::uint64_t key, std::uint64_t n) noexcept {
     return mixed(key + 0x9e3779b97f4a7c15u * (n + 1));
-}
-
-[[nodiscard]] LUMIS_INLINE constexpr std::uint32_t reversed_bits(std::uint32_t x) noexcept {
-    x = x >> 16 | x << 16;
-    x = (x >> 8 & 0x00ff00ffu) | (x & 0x00ff00ffu) << 8;
-    x = (x >> 4 & 0x0f0f0f0fu) | (x & 0x0f0f0f0fu) << 4;
-    x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
-    return (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
 }
 
 // Flips each bit of x or not as a hash of the key and of all lower bits says: what multiplications and additions modulo 2^32
