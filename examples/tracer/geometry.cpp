@@ -11,8 +11,11 @@
 #include <glm/vec4.hpp>
 
 #include <array>
+#include <bit>
+#include <cstring>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 namespace tracer {
 
@@ -27,6 +30,93 @@ void attach(RTCScene scene, RTCGeometry geometry) {
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
+}
+
+// Embree's rays, alone or eight at once: a field is a number, or an array of eight.
+template <lumis::Real R>
+constexpr bool is_single = std::is_same_v<R, float>;
+template <lumis::Real R>
+using EmbreeRay = std::conditional_t<is_single<R>, RTCRay, RTCRay8>;
+template <lumis::Real R>
+using EmbreeRayHit = std::conditional_t<is_single<R>, RTCRayHit, RTCRayHit8>;
+
+void put(const auto& x, auto& field) {
+    static_assert(sizeof x == sizeof field);
+    std::memcpy(&field, &x, sizeof x);
+}
+template <class X>
+X taken(const auto& field) {
+    static_assert(sizeof(X) == sizeof field);
+    X x;
+    std::memcpy(static_cast<void*>(&x), &field, sizeof x);
+    return x;
+}
+
+// A ray leaves a surface: what it meets nearer than its origin's own rounding is that surface.
+template <lumis::Real R>
+void fill(EmbreeRay<R>& to, const Ray<R>& ray, const R& farthest) {
+    namespace real = lumis::real;
+    const Vector<R>& o = ray.origin;
+    const R extent =
+        real::greater(real::greater(real::abs(o.x), real::abs(o.y)), real::greater(real::abs(o.z), R(1.0f)));
+    put(o.x, to.org_x);
+    put(o.y, to.org_y);
+    put(o.z, to.org_z);
+    put(R(1e-4f * extent), to.tnear);
+    put(ray.direction.x, to.dir_x);
+    put(ray.direction.y, to.dir_y);
+    put(ray.direction.z, to.dir_z);
+    put(R(0.0f), to.time);
+    put(farthest, to.tfar);
+    std::memset(&to.mask, 0xff, sizeof to.mask);
+    std::memset(&to.flags, 0, sizeof to.flags);
+}
+
+// What Embree asks and is told of each lane.
+template <lumis::Real R>
+std::array<int, lanes<R>> valid(const Mask<R>& asked) {
+    std::array<int, lanes<R>> result;
+    for (std::size_t i = 0; i < lanes<R>; ++i) result[i] = lane(asked, i) ? -1 : 0;
+    return result;
+}
+
+void intersect(RTCScene scene, RTCRayHit& query, const std::array<int, 1>& asked) {
+    if (asked[0] == 0) return;
+#if RTC_VERSION_MAJOR >= 4
+    rtcIntersect1(scene, &query, nullptr);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene, &context, &query);
+#endif
+}
+void intersect(RTCScene scene, RTCRayHit8& query, const std::array<int, 8>& asked) {
+#if RTC_VERSION_MAJOR >= 4
+    rtcIntersect8(asked.data(), scene, &query, nullptr);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect8(asked.data(), scene, &context, &query);
+#endif
+}
+void occlude(RTCScene scene, RTCRay& ray, const std::array<int, 1>& asked) {
+    if (asked[0] == 0) return;
+#if RTC_VERSION_MAJOR >= 4
+    rtcOccluded1(scene, &ray, nullptr);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene, &context, &ray);
+#endif
+}
+void occlude(RTCScene scene, RTCRay8& ray, const std::array<int, 8>& asked) {
+#if RTC_VERSION_MAJOR >= 4
+    rtcOccluded8(asked.data(), scene, &ray, nullptr);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded8(asked.data(), scene, &context, &ray);
+#endif
 }
 
 }  // namespace
@@ -58,32 +148,40 @@ void Geometry::commit() {
     rtcCommitScene(scene_.get());
 }
 
-std::optional<Hit> Geometry::closest(const glm::vec3& origin, const glm::vec3& direction) const {
-    // A ray leaves a surface: what it meets nearer than its origin's own rounding is that surface.
-    const glm::vec3 extent = glm::abs(origin);
-    const float nearest = 1e-4f * glm::max(1.0f, glm::max(extent.x, glm::max(extent.y, extent.z)));
+template <lumis::Real R>
+Hit<R> Geometry::closest(const Ray<R>& ray, const Mask<R>& asked) const {
+    alignas(32) const auto lanes_asked = valid<R>(asked);
+    EmbreeRayHit<R> query;
+    fill(query.ray, ray, R(std::numeric_limits<float>::infinity()));
+    std::memset(&query.hit.geomID, 0xff, sizeof query.hit.geomID);  // RTC_INVALID_GEOMETRY_ID
+    std::memset(&query.hit.Ng_x, 0, 3 * sizeof(R));
+    intersect(scene_.get(), query, lanes_asked);
 
-    RTCRayHit query{};
-    query.ray.org_x = origin.x;
-    query.ray.org_y = origin.y;
-    query.ray.org_z = origin.z;
-    query.ray.dir_x = direction.x;
-    query.ray.dir_y = direction.y;
-    query.ray.dir_z = direction.z;
-    query.ray.tnear = nearest;
-    query.ray.tfar = std::numeric_limits<float>::infinity();
-    query.ray.mask = ~0u;
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-#if RTC_VERSION_MAJOR >= 4
-    rtcIntersect1(scene_.get(), &query);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(scene_.get(), &context, &query);
-#endif
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return Hit{origin + query.ray.tfar * direction,
-               glm::normalize(glm::vec3{query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z}), &surfaces_[query.hit.geomID]};
+    Hit<R> hit;
+    hit.surface = taken<Indices<R>>(query.hit.geomID);
+    hit.is_met = mask_of<R>([&](auto i) { return hit.surface[i] != RTC_INVALID_GEOMETRY_ID; });
+    for (std::uint32_t& index : hit.surface) index = index == RTC_INVALID_GEOMETRY_ID ? 0 : index;
+    hit.distance = lumis::real::select(hit.is_met, taken<R>(query.ray.tfar), R(0.0f));
+    hit.position = ray.origin + hit.distance * ray.direction;
+    const Vector<R> normal{taken<R>(query.hit.Ng_x), taken<R>(query.hit.Ng_y), taken<R>(query.hit.Ng_z)};
+    const R length = lumis::real::length(normal);
+    const R inverse = 1.0f / lumis::real::divisor_where(length > 0.0f, length);
+    hit.normal = lumis::real::select(hit.is_met, normal * inverse, Vector<R>{R(0.0f)});
+    return hit;
 }
+
+template <lumis::Real R>
+Mask<R> Geometry::is_occluded(const Ray<R>& ray, const R& distance, const Mask<R>& asked) const {
+    alignas(32) const auto lanes_asked = valid<R>(asked);
+    EmbreeRay<R> query;
+    fill(query, ray, R(distance * (1 - 1e-4f)));
+    occlude(scene_.get(), query, lanes_asked);
+    return asked && taken<R>(query.tfar) < 0.0f;  // Embree's sign for yes
+}
+
+template Hit<float> Geometry::closest(const Ray<float>&, const Mask<float>&) const;
+template Hit<Packet> Geometry::closest(const Ray<Packet>&, const Mask<Packet>&) const;
+template Mask<float> Geometry::is_occluded(const Ray<float>&, const float&, const Mask<float>&) const;
+template Mask<Packet> Geometry::is_occluded(const Ray<Packet>&, const Packet&, const Mask<Packet>&) const;
 
 }  // namespace tracer

@@ -1,13 +1,14 @@
-// What a ray meets: Embree holds the shapes, this keeps what Embree does not know, the surface that each shape wears.
+// What rays meet: Embree holds the shapes, this keeps what Embree does not know, the surface that each shape wears.
 #pragma once
 
+#include "packet.hpp"
 #include <lumis/lights/shapes.hpp>
 
 #include <glm/vec3.hpp>
 
 #include <cstdint>
 #include <memory>
-#include <optional>
+#include <span>
 #include <vector>
 
 struct RTCDeviceTy;
@@ -15,16 +16,29 @@ struct RTCSceneTy;
 
 namespace tracer {
 
-// What covers a shape. A light shines alike to all sides and reflects nothing.
+// What covers a shape: a material, a light, or both. Indices are those of the scene's tables.
 struct Surface {
-    std::size_t material{};  // index into the scene's materials
-    glm::vec3 radiance{0};   // emitted
+    static constexpr std::uint32_t none = ~std::uint32_t{};
+
+    std::uint32_t kind = none;   // of material, none: all light is absorbed
+    std::uint32_t material{};    // of this kind
+    std::uint32_t group = none;  // of lights, none: it does not shine
+    std::uint32_t light{};       // of this group
 };
 
+// Rays of unit direction, one in each lane.
+template <lumis::Real R>
+struct Ray {
+    Vector<R> origin, direction;
+};
+
+template <lumis::Real R>
 struct Hit {
-    glm::vec3 position;
-    glm::vec3 normal;  // unit, of either side
-    const Surface* surface;
+    Mask<R> is_met;  // in other lanes, all else is 0
+    R distance;
+    Vector<R> position;
+    Vector<R> normal;    // unit, the geometric one of the shape's own side
+    Indices<R> surface;  // what Geometry::surface takes
 };
 
 class Geometry {
@@ -37,8 +51,15 @@ class Geometry {
     // After the last shape and before the first ray.
     void commit();
 
-    // The first surface ahead of the origin, if any.
-    [[nodiscard]] std::optional<Hit> closest(const glm::vec3& origin, const glm::vec3& direction) const;
+    // The first surface ahead, in the lanes asked for.
+    template <lumis::Real R>
+    [[nodiscard]] Hit<R> closest(const Ray<R>& ray, const Mask<R>& asked) const;
+
+    // Whether something stands nearer than the distance, in the lanes asked for.
+    template <lumis::Real R>
+    [[nodiscard]] Mask<R> is_occluded(const Ray<R>& ray, const R& distance, const Mask<R>& asked) const;
+
+    [[nodiscard]] const Surface& surface(std::uint32_t index) const { return surfaces_[index]; }
 
   private:
     std::shared_ptr<RTCDeviceTy> device_;

@@ -1,0 +1,190 @@
+// What shines. A group holds lights of one shape and knows how to sample one of them from a point; a scene lists its groups
+// as a type, so that it contains no other shape's code.
+#pragma once
+
+#include "geometry.hpp"
+#include "packet.hpp"
+#include <lumis/lumis.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace tracer {
+
+// A direction towards a light. pdf 0: none was drawn.
+template <lumis::Real R>
+struct LightDraw {
+    Vector<R> direction;
+    R pdf;  // per solid angle, the choice of this light included
+    R distance;
+    Vector<R> radiance;
+};
+
+// Where light is looked for: a point, and the side of its surface, below whose horizon it receives nothing. A surface that
+// transmits has no such side: its normal is 0.
+template <lumis::Real R>
+struct Receiver {
+    Vector<R> position, normal;
+};
+
+// A ball that holds a shape, and the shape's largest cross-section.
+template <lumis::Real R>
+struct Extent {
+    Vector<R> center;
+    R radius, area;
+};
+[[nodiscard]] inline Extent<float> extent(const lumis::Sphere<float>& s) {
+    return {s.center, s.radius, std::numbers::pi_v<float> * s.radius * s.radius};
+}
+[[nodiscard]] inline Extent<float> extent(const lumis::Parallelogram<float>& p) {
+    const float diagonal = std::max(glm::length(p.edge_u + p.edge_v), glm::length(p.edge_u - p.edge_v));
+    return {p.corner + 0.5f * (p.edge_u + p.edge_v), 0.5f * diagonal, glm::length(glm::cross(p.edge_u, p.edge_v))};
+}
+
+// A few lights of one shape: one is chosen in proportion to the irradiance that each can cause at most, roughly, and sampled.
+// Each is asked at every point: for up to eight.
+template <template <class> class Shape, class Sampling>
+class FewLights {
+  public:
+    static constexpr std::size_t most = 8;
+    static constexpr bool is_background = false;
+    using Strategy = lumis::AreaLight<Shape<float>, Sampling>;
+
+    // samples: of light at each point.
+    explicit FewLights(int samples = 1) : samples_{samples} {}
+
+    // Returns the light's index.
+    std::uint32_t add(const Shape<float>& shape, const glm::vec3& radiance) {
+        const Extent<float> bounds = extent(shape);
+        const float brightest = std::max({radiance.r, radiance.g, radiance.b});
+        emitters_.push_back({shape, radiance});
+        extents_.push_back({bounds.center, bounds.radius, bounds.area * brightest});
+        return static_cast<std::uint32_t>(emitters_.size() - 1);
+    }
+
+    [[nodiscard]] int samples() const { return samples_; }
+    [[nodiscard]] bool empty() const { return emitters_.empty(); }
+
+    template <lumis::Real R>
+    [[nodiscard]] Vector<R> radiance(const Indices<R>& light) const {
+        return gather<Emitter<R>, R>(emitters_, light).radiance;
+    }
+
+    template <lumis::Real R>
+    class Seen {
+      public:
+        Seen(const FewLights& lights, const Receiver<R>& receiver) : lights_{lights}, position_{receiver.position} {
+            for (std::size_t i = 0; i < lights.extents_.size(); ++i) {
+                const Extent<float>& one = lights.extents_[i];
+                const Vector<R> to_center = Vector<R>(one.center) - position_;
+                const R squared = lumis::real::greater(glm::dot(to_center, to_center), one.radius * one.radius);
+                const R height = glm::dot(to_center, receiver.normal), distance = lumis::real::sqrt(squared);
+                const R cosine = lumis::real::lesser((height + one.radius) / distance, 1.0f);
+                const R has_side = glm::dot(receiver.normal, receiver.normal);
+                const R received = lumis::real::select(has_side > 0.0f, lumis::real::greater(cosine, 0.0f), R(1.0f));
+                total_ += one.area * received / squared;
+                up_to_[i] = total_;
+            }
+        }
+
+        // u.x chooses the light.
+        [[nodiscard]] LightDraw<R> sample(const glm::vec<3, R>& u) const {
+            const R at = u.x * total_;
+            Indices<R> chosen{};
+            R below(0.0f), share = up_to_[0];
+            for (std::size_t i = 1; i < lights_.extents_.size(); ++i) {
+                const Mask<R> is_beyond = at >= up_to_[i - 1] && up_to_[i] > up_to_[i - 1];
+                share = lumis::real::select(is_beyond, up_to_[i] - up_to_[i - 1], share);
+                for (std::size_t k = 0; k < lanes<R>; ++k) {
+                    chosen[k] = lane(is_beyond, k) ? static_cast<std::uint32_t>(i) : chosen[k];
+                }
+            }
+            const Emitter<R> emitter = gather<Emitter<R>, R>(lights_.emitters_, chosen);
+            const auto drawn = lumis::AreaLight<Shape<R>, Sampling>{emitter.shape, position_}.sample(
+                glm::vec<2, R>{u.y, u.z});
+            const R chance = lumis::real::quotient_where(total_ > 0.0f, share, total_);
+            return {drawn.value, drawn.pdf * chance, drawn.distance, emitter.radiance};
+        }
+
+        // The density of a direction that has met a light.
+        [[nodiscard]] R pdf_from_hit(const Indices<R>& light, const R& distance, const R& cosine) const {
+            R share(0.0f);
+            for (std::size_t i = 0; i < lights_.extents_.size(); ++i) {
+                const Mask<R> is_met = mask_of<R>([&](auto k) { return light[k] == i; });
+                share = lumis::real::select(is_met, i == 0 ? up_to_[0] : up_to_[i] - up_to_[i - 1], share);
+            }
+            const Emitter<R> emitter = gather<Emitter<R>, R>(lights_.emitters_, light);
+            const R pdf =
+                lumis::AreaLight<Shape<R>, Sampling>{emitter.shape, position_}.pdf_from_hit(distance, cosine);
+            return lumis::real::quotient_where(total_ > 0.0f, share, total_) * pdf;
+        }
+
+      private:
+        const FewLights& lights_;
+        Vector<R> position_;
+        R total_{0.0f};
+        std::array<R, most> up_to_;  // sums of what each light can cause
+    };
+
+    template <lumis::Real R>
+    [[nodiscard]] Seen<R> seen_from(const Receiver<R>& receiver) const {
+        return Seen<R>{*this, receiver};
+    }
+
+  private:
+    template <lumis::Real R>
+    struct Emitter {
+        Shape<R> shape;
+        Vector<R> radiance;
+    };
+
+    int samples_;
+    std::vector<Emitter<float>> emitters_;
+    std::vector<Extent<float>> extents_;  // whose areas are times radiance
+};
+
+// The groups of lights of a scene. At most one of them is a background: it shines where rays meet nothing.
+template <class... Groups>
+class Lights {
+  public:
+    explicit Lights(Groups... groups) : groups_{std::move(groups)...} {}
+
+    template <std::size_t G>
+    [[nodiscard]] auto& group() {
+        return std::get<G>(groups_);
+    }
+
+    // Puts a light into a group: its surface, which reflects nothing.
+    template <std::size_t G>
+    Surface add(const auto& shape, const glm::vec3& radiance, Surface surface = {}) {
+        surface.light = std::get<G>(groups_).add(shape, radiance);
+        surface.group = static_cast<std::uint32_t>(G);
+        return surface;
+    }
+
+    // The groups as seen from a point.
+    template <lumis::Real R>
+    [[nodiscard]] auto seen_from(const Receiver<R>& receiver) const {
+        return std::apply([&](const auto&... group) { return std::tuple{group.template seen_from<R>(receiver)...}; },
+                          groups_);
+    }
+
+    // visit(group, index of it as a constant).
+    void for_each(auto visit) const {
+        [&]<std::size_t... G>(std::index_sequence<G...>) {
+            (visit(std::get<G>(groups_), std::integral_constant<std::size_t, G>{}), ...);
+        }(std::index_sequence_for<Groups...>{});
+    }
+
+  private:
+    std::tuple<Groups...> groups_;
+};
+
+}  // namespace tracer

@@ -1,0 +1,112 @@
+// Samples of a pixel are traced eight at a time, one in each lane. The tracer's kernels are written for a lumis::Real R: a
+// Packet, or a float for a single sample. What lanes need beyond arithmetic is here: their masks, and tables' entries.
+#pragma once
+
+#include <lumis/core/lanes.hpp>
+#include <lumis/core/real.hpp>
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+#include <vector>
+
+namespace tracer {
+
+using Packet = lumis::Lanes<float, 8>;
+
+template <lumis::Real R>
+inline constexpr std::size_t lanes = [] {
+    if constexpr (std::floating_point<R>) {
+        return std::size_t{1};
+    } else {
+        return R::size;
+    }
+}();
+
+template <lumis::Real R>
+using Vector = glm::vec<3, R>;
+template <lumis::Real R>
+using Mask = lumis::MaskOf<R>;
+
+// An entry of a table for each lane.
+template <lumis::Real R>
+using Indices = std::array<std::uint32_t, lanes<R>>;
+
+[[nodiscard]] LUMIS_INLINE inline bool any(bool mask) {
+    return mask;
+}
+[[nodiscard]] LUMIS_INLINE inline bool any(const auto& mask) {
+    return mask.any();
+}
+[[nodiscard]] LUMIS_INLINE inline bool lane(bool mask, std::size_t /*i*/) {
+    return mask;
+}
+[[nodiscard]] LUMIS_INLINE inline bool lane(const auto& mask, std::size_t i) {
+    return mask[i];
+}
+[[nodiscard]] LUMIS_INLINE inline float lane(float x, std::size_t /*i*/) {
+    return x;
+}
+
+// f(0), f(1), ...: a number for each lane.
+template <lumis::Real R>
+[[nodiscard]] LUMIS_INLINE inline R of_lanes(const auto& f) {
+    if constexpr (std::floating_point<R>) {
+        return f(std::integral_constant<std::size_t, 0>{});
+    } else {
+        return R::of_lanes(f);
+    }
+}
+
+// The lanes where f(0), f(1), ... hold.
+template <lumis::Real R>
+[[nodiscard]] LUMIS_INLINE inline Mask<R> mask_of(const auto& f) {
+    return of_lanes<R>([&](auto i) { return f(i) ? 1.0f : 0.0f; }) > 0.0f;
+}
+
+// Entries where the mask holds; in other lanes one of those.
+template <lumis::Real R>
+[[nodiscard]] LUMIS_INLINE inline Indices<R> filled(const Indices<R>& entries, const Mask<R>& mask) {
+    std::uint32_t present = 0;
+    for (std::size_t i = 0; i < lanes<R>; ++i) present = lane(mask, i) ? entries[i] : present;
+    Indices<R> result;
+    for (std::size_t i = 0; i < lanes<R>; ++i) result[i] = lane(mask, i) ? entries[i] : present;
+    return result;
+}
+
+// Entries of a table of structures of floats, one in each lane: To has the members of From, made of R. Lanes that share an
+// entry, as those of one pixel mostly do, are filled at once.
+template <class To, lumis::Real R, class From>
+[[nodiscard]] LUMIS_INLINE inline To gather(const std::vector<From>& table, const Indices<R>& at) {
+    if constexpr (std::is_same_v<To, From>) {
+        return table[at[0]];
+    } else {
+        constexpr std::size_t members = sizeof(From) / sizeof(float);
+        static_assert(sizeof(To) == members * sizeof(R), "a structure of numbers alone");
+        std::array<R, members> gathered;
+        bool is_shared = true;
+        for (const std::uint32_t one : at) is_shared = is_shared && one == at[0];
+        const auto number = [&](std::size_t lane, std::size_t member) {
+            float x;
+            std::memcpy(&x, reinterpret_cast<const char*>(&table[at[lane]]) + member * sizeof(float), sizeof x);
+            return x;
+        };
+        if (is_shared) {
+            for (std::size_t k = 0; k < members; ++k) gathered[k] = R(number(0, k));
+        } else {
+            for (std::size_t k = 0; k < members; ++k) {
+                gathered[k] = R::of_lanes([&](auto i) { return number(i, k); });
+            }
+        }
+        To result;
+        std::memcpy(static_cast<void*>(&result), gathered.data(), sizeof result);
+        return result;
+    }
+}
+
+}  // namespace tracer

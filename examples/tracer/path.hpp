@@ -1,0 +1,293 @@
+// Path tracing with next event estimation and multiple importance sampling at every bounce. A path's next ray serves twice: it
+// goes on, and where it meets a light it is the BSDF's sample of direct light.
+#pragma once
+
+#include "geometry.hpp"
+#include "lights.hpp"
+#include "material_table.hpp"
+#include "materials.hpp"
+#include "packet.hpp"
+#include "transport.hpp"
+#include <lumis/lumis.hpp>
+
+#include <concepts>
+#include <cstddef>
+
+namespace tracer {
+
+// A scene is a type: what it does not list is not compiled.
+template <class S>
+concept Scene = requires(const S scene) {
+    { scene.geometry() } -> std::same_as<const Geometry&>;
+    typename S::MaterialTable;  // Materials<...>
+    { scene.materials() } -> std::same_as<const typename S::MaterialTable&>;
+    scene.lights();     // Lights<...>
+};
+
+// What a path has found, in each lane.
+template <lumis::Real R>
+struct Found {
+    Vector<R> radiance;
+    Vector<R> albedo, normal;  // of the first surface
+};
+
+template <Scene S, lumis::Real R>
+class PathTracer {
+  public:
+    PathTracer(const S& scene, const Transport& transport, PixelUniforms<R>& uniforms)
+        : scene_{scene}, transport_{transport}, uniforms_{uniforms} {}
+
+    // The radiance that arrives along a ray, in the lanes asked for.
+    [[nodiscard]] Found<R> along(Ray<R> ray, Mask<R> alive) {
+        Hit<R> hit = scene_.geometry().closest(ray, alive);
+        Surfaces on = surfaces_of(hit, alive);
+        Found<R> found{emitted(ray, on, alive), black, hit.normal};
+        Vector<R> throughput{R(1.0f)};
+        for (int bounce = 1; bounce <= transport_.bounces; ++bounce) {
+            alive = alive && on.reflects;
+            if (!any(alive)) break;
+            const Vertex vertex{hit, ray.direction, alive};
+            if (bounce == 1) found.albedo = albedo_at(on, vertex, alive);
+            const auto lights = scene_.lights().template seen_from<R>(vertex.receiver());
+
+            // Next event estimation. A polished material asks no light; the one-sample model asks in half of all cases.
+            Mask<R> asks = alive && !on.is_polished && Mask<R>(transport_.asks_lights());
+            Mask<R> goes_on = alive;
+            if (transport_.integrator == Integrator::OneSample) {
+                asks = asks && uniforms_.template next<1>().x < 0.5f;
+                goes_on = alive && !asks;
+            }
+            if (any(asks)) found.radiance += throughput * direct_light(lights, on, vertex, asks);
+
+            // The path goes on along the BSDF.
+            const Scattered next = scattered(on, vertex, goes_on);
+            throughput *= next.factor;
+            alive = goes_on && next.is_drawn;
+            const Mask<R> is_found_by_both = !on.is_polished && Mask<R>(transport_.asks_lights());
+            if (transport_.integrator == Integrator::OneSample) {
+                throughput *= lumis::real::select(is_found_by_both, R(2.0f), R(1.0f));
+            }
+            if (transport_.integrator == Integrator::Light && bounce == transport_.bounces) {
+                alive = alive && !is_found_by_both;  // nothing is left to be found
+            }
+            if (bounce >= sure_bounces && bounce < transport_.bounces) alive = alive && survives(throughput);
+            if (!any(alive)) break;
+            ray = {hit.position, lumis::real::select(alive, next.direction, up)};
+            hit = scene_.geometry().closest(ray, alive);
+            on = surfaces_of(hit, alive);
+            found.radiance += throughput * emitted(ray, hit, on, alive, lights, next.pdf, is_found_by_both);
+        }
+        return found;
+    }
+
+  private:
+    static constexpr int sure_bounces = 3;  // before Russian roulette
+    const Vector<R> black{R(0.0f)}, up{R(0.0f), R(0.0f), R(1.0f)};
+
+    // What is met, in each lane.
+    struct Surfaces {
+        Indices<R> kind, material, group, light;
+        Mask<R> reflects, is_polished;
+    };
+    [[nodiscard]] LUMIS_INLINE Surfaces surfaces_of(const Hit<R>& hit, const Mask<R>& alive) const {
+        Surfaces on;
+        for (std::size_t i = 0; i < lanes<R>; ++i) {
+            const bool is_met = lane(hit.is_met, i) && lane(alive, i);
+            const Surface surface = is_met ? scene_.geometry().surface(hit.surface[i]) : Surface{};
+            on.kind[i] = surface.kind;
+            on.material[i] = surface.material;
+            on.group[i] = is_met ? surface.group : background;
+            on.light[i] = surface.light;
+        }
+        on.reflects = mask_of<R>([&](auto i) { return on.kind[i] != Surface::none; });
+        on.is_polished = scene_.materials().template are_delta<R>(on.kind);
+        return on;
+    }
+    static constexpr std::uint32_t background = Surface::none - 1;
+
+    // A point where light is scattered; idle lanes have directions all the same.
+    struct Vertex {
+        Vector<R> position, normal, wo;  // in world space; the normal is the shape's own
+
+        Vertex(const Hit<R>& hit, const Vector<R>& direction, const Mask<R>& alive)
+            : position{hit.position},
+              normal{lumis::real::select(alive, hit.normal, Vector<R>{R(0.0f), R(0.0f), R(1.0f)})},
+              wo{lumis::real::select(alive, -direction, Vector<R>{R(0.0f), R(0.0f), R(1.0f)})} {}
+
+        // Materials that do not transmit turn their normal to the viewer's side.
+        template <bool transmits>
+        [[nodiscard]] LUMIS_INLINE lumis::Frame<R> frame() const {
+            if constexpr (transmits) {
+                return lumis::Frame<R>{normal};
+            } else {
+                return lumis::Frame<R>{towards_viewer()};
+            }
+        }
+        [[nodiscard]] LUMIS_INLINE Receiver<R> receiver() const {
+            return {position, S::MaterialTable::transmit ? Vector<R>{R(0.0f)} : towards_viewer()};
+        }
+
+      private:
+        [[nodiscard]] LUMIS_INLINE Vector<R> towards_viewer() const {
+            return lumis::real::select(glm::dot(normal, wo) < 0.0f, -normal, normal);
+        }
+    };
+
+    // Light from all groups that is scattered to the viewer, over throughput.
+    [[nodiscard]] LUMIS_INLINE Vector<R> direct_light(const auto& lights, const Surfaces& on, const Vertex& vertex,
+                                                      const Mask<R>& asks) {
+        Vector<R> sum = black;
+        scene_.lights().for_each([&](const auto& group, auto g) {
+            const int count = group.samples();
+            for (int i = 0; i < count; ++i) {
+                glm::vec<3, R> u = uniforms_.template next<3>();
+                u.x = (u.x + static_cast<float>(i)) * (1.0f / static_cast<float>(count));
+                const LightDraw<R> drawn = std::get<g>(lights).sample(u);
+                Mask<R> arrives = asks && drawn.pdf > 0.0f;
+                const Scattering<R> scattering = evaluate(on, vertex, drawn.direction, arrives);
+                const R own = effective(static_cast<float>(count) * drawn.pdf), other = effective(scattering.pdf);
+                const R weight =
+                    transport_.integrator == Integrator::Light ? R(1.0f) : transport_.weight(own, other);
+                const R factor = lumis::real::quotient_where(arrives, weight, own);
+                const Vector<R> light = scattering.reflected * drawn.radiance * factor;
+                arrives = arrives && light.x + light.y + light.z > 0.0f;
+                if (!any(arrives)) continue;
+                const Ray<R> shadow{vertex.position, lumis::real::select(arrives, drawn.direction, up)};
+                arrives = arrives && !scene_.geometry().is_occluded(shadow, drawn.distance, arrives);
+                sum += lumis::real::select(arrives, light, black);
+            }
+        });
+        return sum;
+    }
+
+    // A density times the probability of taking a sample.
+    [[nodiscard]] LUMIS_INLINE R effective(const R& density) const {
+        return transport_.integrator == Integrator::OneSample ? R(0.5f * density) : density;
+    }
+
+    [[nodiscard]] LUMIS_INLINE Scattering<R> evaluate(const Surfaces& on, const Vertex& vertex, const Vector<R>& wi,
+                                                      const Mask<R>& asked) const {
+        Scattering<R> result{black, R(0.0f)};
+        scene_.materials().template visit<R>(on.kind, on.material, asked, [&](const auto& material, const Mask<R>& mask) {
+            using Material = std::remove_cvref_t<decltype(material)>;
+            if constexpr (!Material::is_delta) {
+                const auto frame = vertex.template frame<Material::transmits>();
+                const Scattering<R> one = material.evaluate(frame.to_local(vertex.wo), frame.to_local(wi));
+                result = {lumis::real::select(mask, one.reflected, result.reflected),
+                          lumis::real::select(mask, one.pdf, result.pdf)};
+            }
+        });
+        return result;
+    }
+
+    // A direction drawn by the BSDF. factor: what throughput is multiplied by.
+    struct Scattered {
+        Vector<R> direction, factor;
+        R pdf;  // 0 of a polished material
+        Mask<R> is_drawn;
+    };
+    [[nodiscard]] LUMIS_INLINE Scattered scattered(const Surfaces& on, const Vertex& vertex, const Mask<R>& asked) {
+        Scattered result{up, black, R(0.0f), Mask<R>(false)};
+        const auto u = uniforms_.template next<S::MaterialTable::dimensions>();
+        scene_.materials().template visit<R>(on.kind, on.material, asked, [&](const auto& material, const Mask<R>& mask) {
+            using Material = std::remove_cvref_t<decltype(material)>;
+            const auto frame = vertex.template frame<Material::transmits>();
+            const Vector<R> wo = frame.to_local(vertex.wo);
+            const auto strategy = material.strategy(wo);
+            const auto drawn = strategy.sample(first<std::remove_cvref_t<decltype(strategy)>::dimensions>(u));
+            const Mask<R> is_drawn = mask && drawn.pdf > 0.0f;
+            const R inverse = lumis::real::quotient_where(is_drawn, R(1.0f), drawn.pdf);
+            const auto put = [&](const Vector<R>& value, const R& pdf) {
+                result.direction = lumis::real::select(is_drawn, frame.to_world(drawn.value), result.direction);
+                result.factor = lumis::real::select(is_drawn, value * inverse, result.factor);
+                result.pdf = lumis::real::select(is_drawn, pdf, result.pdf);
+                result.is_drawn = result.is_drawn || is_drawn;
+            };
+            if constexpr (Material::is_delta) {
+                put(material.coefficient(wo, drawn.value), R(0.0f));
+            } else {
+                put(material.evaluate(wo, drawn.value).reflected, drawn.pdf);
+            }
+        });
+        return result;
+    }
+
+    [[nodiscard]] Vector<R> albedo_at(const Surfaces& on, const Vertex& vertex, const Mask<R>& asked) const {
+        Vector<R> result = black;
+        scene_.materials().template visit<R>(on.kind, on.material, asked, [&](const auto& material, const Mask<R>& mask) {
+            using Material = std::remove_cvref_t<decltype(material)>;
+            const auto frame = vertex.template frame<Material::transmits>();
+            result = lumis::real::select(mask, Vector<R>(material.albedo_seen(frame.to_local(vertex.wo))), result);
+        });
+        return result;
+    }
+
+    // Light that the camera's ray meets.
+    [[nodiscard]] LUMIS_INLINE Vector<R> emitted(const Ray<R>& ray, const Surfaces& on, const Mask<R>& alive) const {
+        Vector<R> result = black;
+        scene_.lights().for_each([&](const auto& group, auto g) {
+            const Mask<R> is_met = meets<g>(group, on, alive);
+            if (!any(is_met)) return;
+            if constexpr (std::remove_cvref_t<decltype(group)>::is_background) {
+                result = lumis::real::select(is_met, group.template radiance<R>(ray.direction), result);
+            } else {
+                result = lumis::real::select(is_met, group.template radiance<R>(filled<R>(on.light, is_met)), result);
+            }
+        });
+        return result;
+    }
+
+    // Light that the BSDF's ray meets, weighted: light sampling, as seen from the ray's origin, could have found it too.
+    [[nodiscard]] LUMIS_INLINE Vector<R> emitted(const Ray<R>& ray, const Hit<R>& hit, const Surfaces& on,
+                                                 const Mask<R>& alive, const auto& lights, const R& bsdf_pdf,
+                                                 const Mask<R>& is_found_by_both) const {
+        Vector<R> result = black;
+        scene_.lights().for_each([&](const auto& group, auto g) {
+            const Mask<R> is_met = meets<g>(group, on, alive);
+            if (!any(is_met)) return;
+            Vector<R> radiance;
+            R light_pdf;
+            if constexpr (std::remove_cvref_t<decltype(group)>::is_background) {
+                const auto met = std::get<g>(lights).met(ray.direction);
+                radiance = met.radiance, light_pdf = met.pdf;
+            } else {
+                const Indices<R> light = filled<R>(on.light, is_met);
+                radiance = group.template radiance<R>(light);
+                light_pdf = std::get<g>(lights).pdf_from_hit(light, hit.distance, glm::dot(hit.normal, ray.direction));
+            }
+            const R weight = transport_.integrator == Integrator::Light
+                                 ? R(0.0f)
+                                 : transport_.weight(effective(bsdf_pdf), effective(static_cast<float>(group.samples()) * light_pdf));
+            result = lumis::real::select(is_met, radiance * lumis::real::select(is_found_by_both, weight, R(1.0f)), result);
+        });
+        return result;
+    }
+
+    template <std::size_t G, class Group>
+    [[nodiscard]] LUMIS_INLINE static Mask<R> meets(const Group& /*group*/, const Surfaces& on, const Mask<R>& alive) {
+        constexpr std::uint32_t met = Group::is_background ? background : static_cast<std::uint32_t>(G);
+        return alive && mask_of<R>([&](auto i) { return on.group[i] == met; });
+    }
+
+    // Russian roulette: a path that goes on stands for those that end.
+    [[nodiscard]] LUMIS_INLINE Mask<R> survives(Vector<R>& throughput) {
+        using lumis::real::greater;
+        const R survival = lumis::real::lesser(greater(greater(throughput.x, throughput.y), throughput.z), 1.0f);
+        const Mask<R> goes_on = uniforms_.template next<1>().x < survival;
+        throughput *= lumis::real::quotient_where(goes_on, R(1.0f), survival);
+        return goes_on;
+    }
+
+    template <int N, int M>
+    [[nodiscard]] LUMIS_INLINE static glm::vec<N, R> first(const glm::vec<M, R>& u) {
+        glm::vec<N, R> result;
+        for (int k = 0; k < N; ++k) result[k] = u[k];
+        return result;
+    }
+
+    const S& scene_;
+    Transport transport_;
+    PixelUniforms<R>& uniforms_;
+};
+
+}  // namespace tracer
