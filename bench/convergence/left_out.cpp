@@ -95,7 +95,7 @@ LeftOut left_out(const std::string& scene, const tracer::Renderer& composed, con
             progress(scene + (&runner == &runners[0] ? ", composed" : ", with everything in"));
             Film film{options.width, options.height};
             const double taken = runner.renderer.add_pass(film, "power", runner.samples, seed, 0);
-            const double pixels = static_cast<double>(film.sums.size());
+            const double pixels = static_cast<double>(film.pixels.size());
             runner.variant.seconds_per_sample.add(taken / (pixels * runner.samples));
             const tracer::Image image = film.image();
             const double error =

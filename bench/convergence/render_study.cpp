@@ -27,7 +27,7 @@ class Run {
     void advance_to(std::int64_t samples) {
         const auto start = std::chrono::steady_clock::now();
         cpu_seconds_ +=
-            renderer_.add_pass(film_, integrator_, static_cast<int>(samples) - film_.samples, seed_, pass_++);
+            renderer_.add_pass(film_, integrator_, static_cast<int>(samples) - film_.samples(), seed_, pass_++);
         wall_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
 
@@ -88,11 +88,6 @@ Measurement measure(const Run& run, const Image& image, const ReferenceImage& re
             lumis::relative_mean_squared_error(estimate, truth, reference.floor) - reference.relative_squared_error};
 }
 
-void add(Film& sum, const Film& film) {
-    for (std::size_t i = 0; i < sum.sums.size(); ++i) sum.sums[i] += film.sums[i];
-    sum.samples += film.samples;
-}
-
 // Counts and probabilities depend on how many lights have risen.
 Recipe recipe(const std::string& integrator) {
     if (integrator == "bsdf" || integrator == "light") return {"alone"};
@@ -151,7 +146,7 @@ Study render_study(const std::string& scene_name, const std::vector<std::uint64_
                 measurements.push_back(measure(run, run.image(), reference));
             }
             series.runs.push_back(std::move(measurements));
-            add(sums[i], run.film());
+            sums[i].merge(run.film());
             const Image image = run.image();
             not_finite[i] += count_not_finite(image);
             if (series.picture) continue;

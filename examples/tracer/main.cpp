@@ -107,16 +107,15 @@ Film render(const Renderer& renderer, const Settings& settings, int width, int h
     Film film{width, height};
     Progress progress{settings};
     double cpu_seconds = 0;
-    constexpr int pass_samples = 4;
     const bool timed = settings.seconds > 0;
     for (std::uint64_t pass = 0; Interruption::received() == 0; ++pass) {
-        const int samples = timed ? pass_samples : std::min(pass_samples, settings.spp - film.samples);
+        const int samples = timed ? pass_samples : std::min(pass_samples, settings.spp - film.samples());
         if (timed ? pass > 0 && progress.seconds() >= settings.seconds : samples == 0) break;
         cpu_seconds += renderer.add_pass(film, settings.integrator, samples, settings.seed, pass);
-        progress.show(film.samples, false);
+        progress.show(film.samples(), false);
     }
-    progress.show(film.samples, true);
-    std::printf("%d samples a pixel in %.2f s, %.2f s of CPU\n", film.samples, progress.seconds(), cpu_seconds);
+    progress.show(film.samples(), true);
+    std::printf("%d samples a pixel in %.2f s, %.2f s of CPU\n", film.samples(), progress.seconds(), cpu_seconds);
     return film;
 }
 
@@ -147,7 +146,7 @@ int run(const Settings& settings) {
         const auto renderer = scene.make({width, height, settings.environment});
         Interruption::watch();
         const Film film = render(*renderer, settings, width, height);
-        any = film.samples > 0;
+        any = film.samples() > 0;
         if (any) write(settings.outputs, film.image());
     } catch (const std::bad_alloc&) {
         throw std::runtime_error("there is not enough memory for an image of " + std::to_string(width) + " x " +

@@ -25,12 +25,6 @@ constexpr std::array<SceneEntry, 3> all_scenes{{
 
 }  // namespace
 
-Image Film::image() const {
-    Image image{width, height, {}};
-    for (const glm::dvec3& sum : sums) image.pixels.emplace_back(sum / static_cast<double>(std::max(samples, 1)));
-    return image;
-}
-
 std::span<const SceneEntry> scenes() {
     return all_scenes;
 }

@@ -1,9 +1,7 @@
 // What the command line, the report and the tests see of the tracer: scenes by name, rendered pass by pass.
 #pragma once
 
-#include "image.hpp"
-
-#include <glm/vec3.hpp>
+#include "film.hpp"
 
 #include <array>
 #include <cstdint>
@@ -14,18 +12,6 @@
 #include <vector>
 
 namespace tracer {
-
-// Sums of estimates, pixel by pixel.
-struct Film {
-    int width, height;
-    std::vector<glm::dvec3> sums;
-    int samples{};  // a pixel
-
-    Film(int width_, int height_)
-        : width{width_}, height{height_}, sums(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {}
-
-    [[nodiscard]] Image image() const;
-};
 
 inline constexpr std::array<std::string_view, 6> integrator_names{"bsdf",  "light",      "balance",
                                                                   "power", "one-sample", "average"};

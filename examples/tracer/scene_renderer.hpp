@@ -38,13 +38,14 @@ class SceneRenderer final : public Renderer {
 
     double add_pass(Film& film, std::string_view integrator, int samples, std::uint64_t seed,
                     std::uint64_t pass) const override {
-        film.samples += samples;
         return with_integrator(integrator, [&]<class Integrator>(std::type_identity<Integrator>) {
             const auto add_pixels = [&](const oneapi::tbb::blocked_range<std::size_t>& pixels, double seconds) {
                 const ThreadClock clock;
                 for (std::size_t i = pixels.begin(); i < pixels.end(); ++i) {
                     lumis::Uniforms uniforms{random_stream(seed, i, pass)};
-                    for (int k = 0; k < samples; ++k) film.sums[i] += radiance<Integrator>(seen_[i], uniforms);
+                    glm::dvec3 sum{0};
+                    for (int k = 0; k < samples; ++k) sum += radiance<Integrator>(seen_[i], uniforms);
+                    film.pixels[i].add_pass(sum, static_cast<std::uint32_t>(samples));
                 }
                 return seconds + clock.seconds();
             };

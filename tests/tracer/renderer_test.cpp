@@ -51,17 +51,17 @@ TEST_CASE("the error of an image falls as its passes say") {
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         Film sum{size, size};
         for (std::uint64_t pass = 0; pass < passes; ++pass) {
-            const std::vector<glm::dvec3> before = sum.sums;
+            const std::vector<Pixel> before = sum.pixels;
             renderer->add_pass(sum, "light", 1, seed, pass);
             double image = 0;
             for (std::size_t i = 0; i < of_one.size(); ++i) {
-                const double value = sum.sums[i].g - before[i].g;
+                const double value = sum.pixels[i].sum.g - before[i].sum.g;
                 of_one[i].add(value);
                 image += value;
             }
             of_image.add(image);
         }
-        for (std::size_t i = 0; i < of_all.size(); ++i) of_all[i].add(sum.sums[i].g / passes);
+        for (std::size_t i = 0; i < of_all.size(); ++i) of_all[i].add(sum.pixels[i].sum.g / passes);
     }
     lumis::RunningMoments<> ratios;
     for (std::size_t i = 0; i < of_one.size(); ++i) {
