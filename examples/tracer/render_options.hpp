@@ -1,0 +1,28 @@
+// How a scene is rendered, apart from the integrator: what a command line can ask of every renderer.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace tracer {
+
+enum class Sampler { Sobol, Random };
+enum class Filter { Box, Gaussian };
+
+// A value and what the command line calls it.
+template <class Value>
+struct Named {
+    std::string_view name;
+    Value value;
+};
+
+inline constexpr std::array<Named<Sampler>, 2> samplers{{{"sobol", Sampler::Sobol}, {"random", Sampler::Random}}};
+inline constexpr std::array<Named<Filter>, 2> filters{{{"box", Filter::Box}, {"gaussian", Filter::Gaussian}}};
+
+struct RenderOptions {
+    int bounces = 5;  // of a path: 0 shows emission alone, 1 direct light
+    Sampler sampler = Sampler::Sobol;
+    Filter filter = Filter::Box;
+};
+
+}  // namespace tracer
