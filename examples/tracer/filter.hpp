@@ -3,14 +3,9 @@
 #pragma once
 
 #include "packet.hpp"
-
-#include <array>
-#include <string_view>
+#include "render_options.hpp"
 
 namespace tracer {
-
-enum class Filter { Box, Tent };
-inline constexpr std::array<std::string_view, 2> filter_names{"box", "tent"};
 
 // From the pixel's centre, in pixels along one axis, for u in [0, 1): a box is one wide, a tent (linear interpolation) two.
 template <lumis::Real R>

@@ -3,11 +3,13 @@
 
 #include "geometry.hpp"
 #include "packet.hpp"
+#include "type_name.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -24,6 +26,11 @@ class Materials {
     // Uniforms that sample any of the kinds.
     static constexpr int dimensions =
         std::max({decltype(std::declval<Kinds>().strategy(glm::vec3{}))::dimensions...});
+
+    // The strategy of each kind, by its type.
+    [[nodiscard]] static std::vector<std::string> strategies() {
+        return {type_name<Kinds>() + ": " + type_name<decltype(std::declval<Kinds>().strategy(glm::vec3{}))>()...};
+    }
 
     // The surface that a material makes.
     template <class Kind>

@@ -46,11 +46,16 @@ using Indices = std::array<std::uint32_t, lanes<R>>;
 [[nodiscard]] LUMIS_INLINE inline bool lane(bool mask, std::size_t /*i*/) {
     return mask;
 }
-[[nodiscard]] LUMIS_INLINE inline bool lane(const auto& mask, std::size_t i) {
-    return mask[i];
+[[nodiscard]] LUMIS_INLINE inline auto lane(const auto& lanes_of_something, std::size_t i) {
+    return lanes_of_something[i];
 }
 [[nodiscard]] LUMIS_INLINE inline float lane(float x, std::size_t /*i*/) {
     return x;
+}
+
+template <lumis::Real R>
+[[nodiscard]] LUMIS_INLINE inline glm::vec3 lane_of(const Vector<R>& v, std::size_t i) {
+    return {lane(v.x, i), lane(v.y, i), lane(v.z, i)};
 }
 
 // f(0), f(1), ...: a number for each lane.

@@ -7,11 +7,15 @@
 #include "material_table.hpp"
 #include "materials.hpp"
 #include "packet.hpp"
+#include "sampler.hpp"
 #include "transport.hpp"
 #include <lumis/lumis.hpp>
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <type_traits>
 
 namespace tracer {
 
@@ -34,8 +38,8 @@ struct Found {
 template <Scene S, lumis::Real R>
 class PathTracer {
   public:
-    PathTracer(const S& scene, const Transport& transport, PixelUniforms<R>& uniforms)
-        : scene_{scene}, transport_{transport}, uniforms_{uniforms} {}
+    PathTracer(const S& scene, Integrator integrator, int bounces, PixelUniforms<R>& uniforms)
+        : scene_{scene}, integrator_{integrator}, bounces_{bounces}, uniforms_{uniforms} {}
 
     // The radiance that arrives along a ray, in the lanes asked for.
     [[nodiscard]] Found<R> along(Ray<R> ray, Mask<R> alive) {
@@ -43,7 +47,7 @@ class PathTracer {
         Surfaces on = surfaces_of(hit, alive);
         Found<R> found{emitted(ray, on, alive), black, hit.normal};
         Vector<R> throughput{R(1.0f)};
-        for (int bounce = 1; bounce <= transport_.bounces; ++bounce) {
+        for (int bounce = 1; bounce <= bounces_; ++bounce) {
             alive = alive && on.reflects;
             if (!any(alive)) break;
             const Vertex vertex{hit, ray.direction, alive};
@@ -51,9 +55,9 @@ class PathTracer {
             const auto lights = scene_.lights().template seen_from<R>(vertex.receiver());
 
             // Next event estimation. A polished material asks no light; the one-sample model asks in half of all cases.
-            Mask<R> asks = alive && !on.is_polished && Mask<R>(transport_.asks_lights());
+            Mask<R> asks = alive && !on.is_polished && Mask<R>(asks_lights(integrator_));
             Mask<R> goes_on = alive;
-            if (transport_.integrator == Integrator::OneSample) {
+            if (integrator_ == Integrator::OneSample) {
                 asks = asks && uniforms_.template next<1>().x < 0.5f;
                 goes_on = alive && !asks;
             }
@@ -63,14 +67,14 @@ class PathTracer {
             const Scattered next = scattered(on, vertex, goes_on);
             throughput *= next.factor;
             alive = goes_on && next.is_drawn;
-            const Mask<R> is_found_by_both = !on.is_polished && Mask<R>(transport_.asks_lights());
-            if (transport_.integrator == Integrator::OneSample) {
+            const Mask<R> is_found_by_both = !on.is_polished && Mask<R>(asks_lights(integrator_));
+            if (integrator_ == Integrator::OneSample) {
                 throughput *= lumis::real::select(is_found_by_both, R(2.0f), R(1.0f));
             }
-            if (transport_.integrator == Integrator::Light && bounce == transport_.bounces) {
+            if (integrator_ == Integrator::Light && bounce == bounces_) {
                 alive = alive && !is_found_by_both;  // nothing is left to be found
             }
-            if (bounce >= sure_bounces && bounce < transport_.bounces) alive = alive && survives(throughput);
+            if (bounce >= sure_bounces && bounce < bounces_) alive = alive && survives(throughput);
             if (!any(alive)) break;
             ray = {hit.position, lumis::real::select(alive, next.direction, up)};
             hit = scene_.geometry().closest(ray, alive);
@@ -146,8 +150,7 @@ class PathTracer {
                 Mask<R> arrives = asks && drawn.pdf > 0.0f;
                 const Scattering<R> scattering = evaluate(on, vertex, drawn.direction, arrives);
                 const R own = effective(static_cast<float>(count) * drawn.pdf), other = effective(scattering.pdf);
-                const R weight =
-                    transport_.integrator == Integrator::Light ? R(1.0f) : transport_.weight(own, other);
+                const R weight = weight_of_light_sample(integrator_, own, other);
                 const R factor = lumis::real::quotient_where(arrives, weight, own);
                 const Vector<R> light = scattering.reflected * drawn.radiance * factor;
                 arrives = arrives && light.x + light.y + light.z > 0.0f;
@@ -162,7 +165,7 @@ class PathTracer {
 
     // A density times the probability of taking a sample.
     [[nodiscard]] LUMIS_INLINE R effective(const R& density) const {
-        return transport_.integrator == Integrator::OneSample ? R(0.5f * density) : density;
+        return integrator_ == Integrator::OneSample ? R(0.5f * density) : density;
     }
 
     [[nodiscard]] LUMIS_INLINE Scattering<R> evaluate(const Surfaces& on, const Vertex& vertex, const Vector<R>& wi,
@@ -255,9 +258,8 @@ class PathTracer {
                 radiance = group.template radiance<R>(light);
                 light_pdf = std::get<g>(lights).pdf_from_hit(light, hit.distance, glm::dot(hit.normal, ray.direction));
             }
-            const R weight = transport_.integrator == Integrator::Light
-                                 ? R(0.0f)
-                                 : transport_.weight(effective(bsdf_pdf), effective(static_cast<float>(group.samples()) * light_pdf));
+            const R other = effective(static_cast<float>(group.samples()) * light_pdf);
+            const R weight = weight_of_bsdf_sample(integrator_, effective(bsdf_pdf), other);
             result = lumis::real::select(is_met, radiance * lumis::real::select(is_found_by_both, weight, R(1.0f)), result);
         });
         return result;
@@ -286,7 +288,8 @@ class PathTracer {
     }
 
     const S& scene_;
-    Transport transport_;
+    Integrator integrator_;
+    int bounces_;
     PixelUniforms<R>& uniforms_;
 };
 

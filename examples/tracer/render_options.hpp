@@ -7,7 +7,7 @@
 namespace tracer {
 
 enum class Sampler { Sobol, Random };
-enum class Filter { Box, Gaussian };
+enum class Filter { Box, Tent };
 
 // A value and what the command line calls it.
 template <class Value>
@@ -16,8 +16,17 @@ struct Named {
     Value value;
 };
 
+// The value of that name; the first if there is none.
+template <class Names>
+[[nodiscard]] constexpr auto value_named(const Names& names, std::string_view name) {
+    for (const auto& one : names) {
+        if (one.name == name) return one.value;
+    }
+    return names.front().value;
+}
+
 inline constexpr std::array<Named<Sampler>, 2> samplers{{{"sobol", Sampler::Sobol}, {"random", Sampler::Random}}};
-inline constexpr std::array<Named<Filter>, 2> filters{{{"box", Filter::Box}, {"gaussian", Filter::Gaussian}}};
+inline constexpr std::array<Named<Filter>, 2> filters{{{"box", Filter::Box}, {"tent", Filter::Tent}}};
 
 struct RenderOptions {
     int bounces = 5;  // of a path: 0 shows emission alone, 1 direct light

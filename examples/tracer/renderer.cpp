@@ -1,6 +1,7 @@
 #include "renderer.hpp"
 
 #include "scenes.hpp"
+#include "transport.hpp"
 
 #include <algorithm>
 
@@ -8,7 +9,7 @@ namespace tracer {
 
 namespace {
 
-constexpr std::array<SceneEntry, 3> all_scenes{{
+constexpr std::array<SceneEntry, 2> all_scenes{{
     {"veach", "Veach's plates and spheres",
      "Four coated plates, the farthest the smoothest, reflect five sphere lights of falling size and rising radiance. "
      "Sampling the lights fails where a smooth plate mirrors a large light, sampling the BSDF where a rough one "
@@ -17,10 +18,6 @@ constexpr std::array<SceneEntry, 3> all_scenes{{
     {"sky", "Rising roughness under a sunset",
      "A mirror, four metals of roughness 0.01, 0.05, 0.15 and 0.4, and chalk, under a photographed sky.", 768, 384,
      true, make_sky},
-    {"cornell", "Cornell box",
-     "One rectangular light hangs over diffuse walls, a diffuse block and a coated one: sampling the light is nearly "
-     "all that this scene needs.",
-     512, 512, false, make_cornell},
 }};
 
 }  // namespace
@@ -32,6 +29,15 @@ std::span<const SceneEntry> scenes() {
 const SceneEntry* find_scene(std::string_view name) {
     const auto found = std::ranges::find(all_scenes, name, &SceneEntry::name);
     return found == all_scenes.end() ? nullptr : &*found;
+}
+
+std::span<const std::string_view> integrator_names() {
+    static constexpr auto names = [] {
+        std::array<std::string_view, integrators.size()> result;
+        for (std::size_t i = 0; i < result.size(); ++i) result[i] = integrators[i].name;
+        return result;
+    }();
+    return names;
 }
 
 int widest_scene() {

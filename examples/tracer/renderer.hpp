@@ -2,8 +2,8 @@
 #pragma once
 
 #include "film.hpp"
+#include "render_options.hpp"
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -13,22 +13,18 @@
 
 namespace tracer {
 
-inline constexpr std::array<std::string_view, 6> integrator_names{"bsdf",  "light",      "balance",
-                                                                  "power", "one-sample", "average"};
-
-// A scene seen by its camera at one resolution. Primary rays go through the pixels' centres and are traced once: what is
-// left to estimate, and to time, is direct light.
+// A scene seen by its camera at one resolution.
 class Renderer {
   public:
     virtual ~Renderer() = default;
 
-    // The estimators that an integrator composes in this scene, one for each material, read off their types.
-    [[nodiscard]] virtual std::vector<std::string> strategies(std::string_view integrator) const = 0;
+    // What samples this scene: a line for each kind of material and each group of lights, read off their types.
+    [[nodiscard]] virtual std::vector<std::string> strategies() const = 0;
 
-    // Adds samples to every pixel. What is added depends on the seed and the pass alone, never on the threads. Returns
-    // the CPU seconds that all threads together spent on estimation.
-    virtual double add_pass(Film& film, std::string_view integrator, int samples, std::uint64_t seed,
-                            std::uint64_t pass) const = 0;
+    // Adds a pass of so many samples to every pixel; multiples of eight take the least time. What is added depends on the
+    // seed and the pass alone, never on the threads. Returns the CPU seconds that all threads together spent.
+    virtual double add_pass(Film& film, std::string_view integrator, const RenderOptions& options, int samples,
+                            std::uint64_t seed, std::uint64_t pass) const = 0;
 };
 
 struct SceneOptions {
@@ -50,5 +46,8 @@ struct SceneEntry {
 
 // In pixels, of all the scenes' own widths.
 [[nodiscard]] int widest_scene();
+
+// In the order in which they are best told.
+[[nodiscard]] std::span<const std::string_view> integrator_names();
 
 }  // namespace tracer

@@ -3,17 +3,13 @@
 
 #include "packet.hpp"
 #include "random_stream.hpp"
+#include "render_options.hpp"
 #include <lumis/core/uniforms.hpp>
 #include <lumis/qmc/sobol.hpp>
 
-#include <array>
 #include <cstdint>
-#include <string_view>
 
 namespace tracer {
-
-enum class Sampler { Sobol, Random };
-inline constexpr std::array<std::string_view, 2> sampler_names{"sobol", "random"};
 
 // Uniforms of one pixel in one pass. Points of Sobol's sequence belong to one randomisation, of its own for each pixel and pass.
 template <lumis::Real R>

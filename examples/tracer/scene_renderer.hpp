@@ -1,104 +1,80 @@
-// A renderer for one type of scene: every loop and every estimator below is compiled for just this scene.
+// A renderer for one type of scene: every loop below is compiled for just this scene.
 #pragma once
 
 #include "camera.hpp"
-#include "direct_light.hpp"
-#include "random_stream.hpp"
+#include "filter.hpp"
+#include "path.hpp"
 #include "renderer.hpp"
+#include "sampler.hpp"
 #include "thread_clock.hpp"
+#include "transport.hpp"
 #include "type_name.hpp"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_reduce.h>
 
 #include <functional>
-#include <tuple>
-#include <type_traits>
 #include <utility>
 
 namespace tracer {
 
-template <Scene S, class Integrators = AllIntegrators>
+// R: a Packet, or float for one sample after the other.
+template <Scene S, lumis::Real R = Packet>
 class SceneRenderer final : public Renderer {
   public:
-    SceneRenderer(S scene, const SceneOptions& options, const Camera& camera) : scene_{std::move(scene)} {
-        seen_.reserve(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height));
-        for (int y = 0; y < options.height; ++y) {
-            for (int x = 0; x < options.width; ++x) {
-                seen_.push_back(look(camera.position, camera.direction(x, y, options.width, options.height)));
+    SceneRenderer(S scene, const SceneOptions& options, const Camera& camera)
+        : scene_{std::move(scene)}, width_{options.width}, view_{camera, options.width, options.height} {}
+
+    [[nodiscard]] std::vector<std::string> strategies() const override {
+        std::vector<std::string> names = S::MaterialTable::strategies();
+        scene_.lights().for_each([&](const auto& group, auto) {
+            names.push_back("light: " + type_name<typename std::remove_cvref_t<decltype(group)>::Strategy>());
+        });
+        return names;
+    }
+
+    double add_pass(Film& film, std::string_view integrator, const RenderOptions& options, int samples,
+                    std::uint64_t seed, std::uint64_t pass) const override {
+        const Integrator chosen = value_named(integrators, integrator);
+        const auto add_pixels = [&](const oneapi::tbb::blocked_range<std::size_t>& pixels, double seconds) {
+            const ThreadClock clock;
+            for (std::size_t i = pixels.begin(); i < pixels.end(); ++i) {
+                PixelUniforms<R> uniforms{options.sampler, seed, i, pass};
+                add_pixel(film.pixels[i], i, chosen, options, samples, uniforms);
             }
-        }
-    }
-
-    [[nodiscard]] std::vector<std::string> strategies(std::string_view integrator) const override {
-        return with_integrator(integrator, [&]<class Integrator>(std::type_identity<Integrator>) {
-            return names<Integrator>(std::type_identity<typename S::Material>{});
-        });
-    }
-
-    double add_pass(Film& film, std::string_view integrator, int samples, std::uint64_t seed,
-                    std::uint64_t pass) const override {
-        return with_integrator(integrator, [&]<class Integrator>(std::type_identity<Integrator>) {
-            const auto add_pixels = [&](const oneapi::tbb::blocked_range<std::size_t>& pixels, double seconds) {
-                const ThreadClock clock;
-                for (std::size_t i = pixels.begin(); i < pixels.end(); ++i) {
-                    lumis::Uniforms uniforms{random_stream(seed, i, pass)};
-                    glm::dvec3 sum{0};
-                    for (int k = 0; k < samples; ++k) sum += radiance<Integrator>(seen_[i], uniforms);
-                    film.pixels[i].add_pass(sum, static_cast<std::uint32_t>(samples));
-                }
-                return seconds + clock.seconds();
-            };
-            return oneapi::tbb::parallel_reduce(oneapi::tbb::blocked_range<std::size_t>{0, seen_.size(), 64}, 0.0,
-                                                add_pixels, std::plus<>{});
-        });
+            return seconds + clock.seconds();
+        };
+        return oneapi::tbb::parallel_reduce(oneapi::tbb::blocked_range<std::size_t>{0, film.pixels.size(), 64}, 0.0,
+                                            add_pixels, std::plus<>{});
     }
 
   private:
-    // What a pixel shows: a point to be lit, or light itself.
-    using Seen = std::variant<Vertex, glm::vec3>;
-
-    [[nodiscard]] Seen look(const glm::vec3& origin, const glm::vec3& direction) const {
-        const auto hit = scene_.geometry().closest(origin, direction);
-        if (!hit) return scene_.background(direction);
-        if (hit->surface->radiance != glm::vec3{0}) return hit->surface->radiance;
-        const bool front = glm::dot(hit->normal, direction) < 0;
-        const lumis::Frame<float> frame{front ? hit->normal : -hit->normal};
-        return Vertex{hit->position, frame, frame.to_local(-direction), hit->surface};
-    }
-
-    template <class Integrator>
-    [[nodiscard]] glm::dvec3 radiance(const Seen& seen, auto& uniforms) const {
-        if (const auto* light = std::get_if<glm::vec3>(&seen)) return *light;
-        const Vertex& vertex = std::get<Vertex>(seen);
-        return std::visit(
-            [&](const auto& material) { return direct_light<Integrator>(scene_, vertex, material, uniforms); },
-            scene_.material(*vertex.surface));
-    }
-
-    // Calls visit with the integrator of that name.
-    template <class Visit>
-    static auto with_integrator(std::string_view name, Visit visit) {
-        return with_first_of(std::type_identity<Integrators>{}, name, visit);
-    }
-    template <class First, class... Rest, class Visit>
-    static auto with_first_of(std::type_identity<std::tuple<First, Rest...>>, std::string_view name, Visit visit) {
-        if constexpr (sizeof...(Rest) > 0) {
-            if (name != First::name) return with_first_of(std::type_identity<std::tuple<Rest...>>{}, name, visit);
+    void add_pixel(Pixel& pixel, std::size_t index, Integrator integrator, const RenderOptions& options, int samples,
+                   PixelUniforms<R>& uniforms) const {
+        const auto column = static_cast<float>(index % static_cast<std::size_t>(width_)),
+                   row = static_cast<float>(index / static_cast<std::size_t>(width_));
+        PathTracer<S, R> paths{scene_, integrator, options.bounces, uniforms};
+        glm::dvec3 sum{0};
+        const int width = static_cast<int>(lanes<R>);
+        for (int sample = 0; sample < samples; sample += width) {
+            uniforms.start(static_cast<std::uint32_t>(sample));
+            const glm::vec<2, R> u = uniforms.template next<2>();
+            const R x = column + 0.5f + filter_offset(options.filter, u.x),
+                    y = row + 0.5f + filter_offset(options.filter, u.y);
+            const Mask<R> asked = mask_of<R>([&](auto i) { return sample + static_cast<int>(i) < samples; });
+            const Found<R> found = paths.along(view_.template ray<R>(x, y), asked);
+            for (std::size_t i = 0; i < lanes<R> && sample + static_cast<int>(i) < samples; ++i) {
+                sum += glm::dvec3{lane_of(found.radiance, i)};
+                pixel.albedo += lane_of(found.albedo, i);
+                pixel.normal += lane_of(found.normal, i);
+            }
         }
-        return visit(std::type_identity<First>{});
+        pixel.add_pass(sum, static_cast<std::uint32_t>(samples));
     }
-
-    template <class Integrator, class... Materials>
-    [[nodiscard]] static std::vector<std::string> names(std::type_identity<std::variant<Materials...>>) {
-        return {type_name<Materials>() + ": " + type_name<Estimator<Integrator, Materials>>()...};
-    }
-    template <class Integrator, class Material>
-    using Estimator =
-        decltype(estimator_at<Integrator>(std::declval<S>(), std::declval<Vertex>(), std::declval<Material>()));
 
     S scene_;
-    std::vector<Seen> seen_;  // pixel by pixel
+    int width_;
+    View view_;
 };
 
 }  // namespace tracer

@@ -2,15 +2,13 @@
 #pragma once
 
 #include "camera.hpp"
-#include "direct_light.hpp"
+#include "geometry.hpp"
+#include "lights.hpp"
+#include "material_table.hpp"
 #include "materials.hpp"
 
 #include <array>
-#include <cstddef>
-#include <span>
-#include <tuple>
-#include <variant>
-#include <vector>
+#include <cstdlib>
 
 namespace tracer {
 
@@ -26,55 +24,50 @@ inline constexpr std::array<SphereLight, 5> veach_lights{{
     {{{3.75f, 0, 0}, 0.9f}, 1.23457f},
 }};
 
-struct Plate {
+struct PlateOutline {
     glm::vec2 front, back;  // (y, z) of two opposite edges
     float alpha;
 };
-inline constexpr std::array<Plate, 4> veach_plates{{
+inline constexpr std::array<PlateOutline, 4> veach_plates{{
     {{-2.70651f, 0.25609f}, {-2.08375f, -0.526323f}, 0.005f},
     {{-3.28825f, 1.36972f}, {-2.83856f, 0.476536f}, 0.02f},
     {{-3.73096f, 2.70046f}, {-3.43378f, 1.74564f}, 0.05f},
     {{-3.99615f, 4.0667f}, {-3.82069f, 3.08221f}, 0.1f},
 }};
 
+// Plate: the material of the plates.
+template <class Plate>
 class Veach {
   public:
-    using Material = std::variant<Diffuse, Coated>;
+    using MaterialTable = Materials<Diffuse<float>, Plate>;
+    using LightTable = Lights<FewLights<lumis::Sphere, lumis::BySolidAngle>>;
 
-    Veach() {
-        materials_.push_back(Diffuse{glm::vec3{0.4f}});
+    explicit Veach(auto plate_of_roughness) {
+        const Surface wall = materials_.add(Diffuse<float>{glm::vec3{0.4f}});
         geometry_.add(lumis::Parallelogram{glm::vec3{-10, -4.14615f, -10}, glm::vec3{20, 0, 0}, glm::vec3{0, 0, 20}},
-                      {0});
-        geometry_.add(lumis::Parallelogram{glm::vec3{-10, -10, -2}, glm::vec3{20, 0, 0}, glm::vec3{0, 20, 0}}, {0});
-        for (const Plate& plate : veach_plates) {
+                      wall);
+        geometry_.add(lumis::Parallelogram{glm::vec3{-10, -10, -2}, glm::vec3{20, 0, 0}, glm::vec3{0, 20, 0}}, wall);
+        for (const PlateOutline& plate : veach_plates) {
             const glm::vec2 depth = plate.back - plate.front;
             geometry_.add(lumis::Parallelogram{glm::vec3{-4, plate.front.x, plate.front.y}, glm::vec3{8, 0, 0},
                                                glm::vec3{0, depth.x, depth.y}},
-                          {materials_.size()});
-            materials_.push_back(Coated{{0.07f, 0.09f, 0.13f}, plate.alpha, 2});
+                          materials_.add(plate_of_roughness(plate.alpha)));
         }
-        for (const SphereLight& light : veach_lights) geometry_.add(light.shape, {0, glm::vec3{light.radiance}});
+        for (const SphereLight& light : veach_lights) {
+            geometry_.add(light.shape, lights_.template add<0>(light.shape, glm::vec3{light.radiance}));
+        }
         geometry_.commit();
     }
 
     [[nodiscard]] static Camera camera() { return {{0, 2, 15}, {0, -2, 2.5f}, {0, 1, 0}, 28}; }
     [[nodiscard]] const Geometry& geometry() const { return geometry_; }
-    [[nodiscard]] std::span<const Material> materials() const { return materials_; }
-    [[nodiscard]] const Material& material(const Surface& surface) const { return materials_[surface.material]; }
-    [[nodiscard]] static glm::vec3 background(const glm::vec3& /*w*/) { return glm::vec3{0}; }
-
-    [[nodiscard]] static auto lights_at(const Vertex& vertex) {
-        const auto seen = [&](const SphereLight& light) {
-            using Strategy = lumis::AreaLight<lumis::Sphere<float>, lumis::BySolidAngle>;
-            const float height = glm::dot(light.shape.center - vertex.position, vertex.frame.normal());
-            return Light<Strategy>{Strategy{light.shape, vertex.position}, height > -light.shape.radius};
-        };
-        return std::apply([&](const auto&... light) { return std::tuple{seen(light)...}; }, veach_lights);
-    }
+    [[nodiscard]] const MaterialTable& materials() const { return materials_; }
+    [[nodiscard]] const LightTable& lights() const { return lights_; }
 
   private:
     Geometry geometry_;
-    std::vector<Material> materials_;
+    MaterialTable materials_;
+    LightTable lights_{FewLights<lumis::Sphere, lumis::BySolidAngle>{std::getenv("NL") ? std::atoi(std::getenv("NL")) : 1}};
 };
 
 }  // namespace tracer
