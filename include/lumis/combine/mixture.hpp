@@ -100,6 +100,16 @@ class Mixture {
         return detail::nearest_hit(parts_, w, LightHit<typename detail::RealAt<Mixture, X>::type>{});
     }
 
+    // Part I, and the probability with which it is drawn: for hosts that share work between a density and a reflectance.
+    template <std::size_t I>
+    [[nodiscard]] LUMIS_HD constexpr const auto& strategy() const noexcept LUMIS_LIFETIME_BOUND {
+        return detail::part<I>(parts_);
+    }
+    template <std::size_t I>
+    [[nodiscard]] LUMIS_HD constexpr const Scalar& probability() const noexcept LUMIS_LIFETIME_BOUND {
+        return probabilities_[I];
+    }
+
   private:
     template <Real R>
     using PointAt = typename detail::PointIn<Point, Scalar, R>::type;
