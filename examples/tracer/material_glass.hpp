@@ -1,4 +1,4 @@
-// Glass, rough and polished, both sides of it. A path carries radiance: it comes from the camera. See materials.hpp.
+// Glass, rough and polished, from both sides. A path comes from the camera, and so carries radiance. See materials.hpp.
 #pragma once
 
 #include "scattering.hpp"
@@ -19,15 +19,16 @@ struct RoughGlass {
     using In = RoughGlass<S>;
     static constexpr bool is_delta = false, transmits = true;
 
-    [[nodiscard]] LUMIS_INLINE auto strategy(const glm::vec<3, R>& wo) const {
-        return lumis::GgxDielectric<R>{wo, alpha, index};
+    struct Bsdf : lumis::GgxDielectric<R> {
+        [[nodiscard]] LUMIS_INLINE Scattering<R> evaluate(const glm::vec<3, R>& wi) const {
+            const R pdf = this->pdf(wi);
+            return {glm::vec<3, R>{lumis::density_or_zero(R(this->weight(wi) * pdf))}, pdf};
+        }
+    };
+    [[nodiscard]] LUMIS_INLINE Bsdf strategy(const glm::vec<3, R>& wo) const { return {{wo, alpha, index}}; }
+    [[nodiscard]] LUMIS_INLINE glm::vec<3, R> albedo_seen(const glm::vec<3, R>& /*wo*/) const {
+        return glm::vec<3, R>{R(1.0f)};
     }
-    [[nodiscard]] LUMIS_INLINE Scattering<R> evaluate(const glm::vec<3, R>& wo, const glm::vec<3, R>& wi) const {
-        const auto boundary = strategy(wo);
-        const R pdf = boundary.pdf(wi);
-        return {glm::vec<3, R>{lumis::density_or_zero(R(boundary.weight(wi) * pdf))}, pdf};
-    }
-    [[nodiscard]] LUMIS_INLINE static auto albedo_seen(const glm::vec<3, R>& /*wo*/) { return glm::vec<3, R>{R(1.0f)}; }
 };
 
 // Polished glass: it mirrors, or refracts.
@@ -40,13 +41,15 @@ struct SmoothGlass {
     using In = SmoothGlass<S>;
     static constexpr bool is_delta = true, transmits = true;
 
-    [[nodiscard]] LUMIS_INLINE auto strategy(const glm::vec<3, R>& wo) const {
-        return lumis::SmoothDielectric<R>{wo, index};
+    struct Bsdf : lumis::SmoothDielectric<R> {
+        [[nodiscard]] LUMIS_INLINE glm::vec<3, R> coefficient(const glm::vec<3, R>& wi) const {
+            return glm::vec<3, R>{lumis::SmoothDielectric<R>::coefficient(wi)};
+        }
+    };
+    [[nodiscard]] LUMIS_INLINE Bsdf strategy(const glm::vec<3, R>& wo) const { return {{wo, index}}; }
+    [[nodiscard]] LUMIS_INLINE glm::vec<3, R> albedo_seen(const glm::vec<3, R>& /*wo*/) const {
+        return glm::vec<3, R>{R(1.0f)};
     }
-    [[nodiscard]] LUMIS_INLINE auto coefficient(const glm::vec<3, R>& wo, const glm::vec<3, R>& wi) const {
-        return glm::vec<3, R>{lumis::density_or_zero(strategy(wo).coefficient(wi))};
-    }
-    [[nodiscard]] LUMIS_INLINE static auto albedo_seen(const glm::vec<3, R>& /*wo*/) { return glm::vec<3, R>{R(1.0f)}; }
 };
 
 }  // namespace tracer

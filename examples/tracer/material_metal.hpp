@@ -1,4 +1,4 @@
-// Metals, rough and polished: a reflectance that depends on the angle, and a surface. See materials.hpp.
+// Metals, rough and polished: a reflectance, and a surface that has it. See materials.hpp.
 #pragma once
 
 #include "scattering.hpp"
@@ -8,13 +8,11 @@
 
 namespace tracer {
 
-// Unpolarised reflectance by the complex index of refraction eta + i k of each channel (Fresnel).
+// Unpolarised reflectance by the complex index of refraction eta + i k of each channel (Fresnel). With eta = 0 all is
+// reflected.
 template <lumis::Real R>
 struct Conductor {
     glm::vec<3, R> eta, k;
-
-    template <lumis::Real S>
-    using In = Conductor<S>;
 
     [[nodiscard]] LUMIS_INLINE glm::vec<3, R> reflectance(R cosine) const {
         return {lumis::fresnel_conductor(cosine, eta.x, k.x), lumis::fresnel_conductor(cosine, eta.y, k.y),
@@ -30,13 +28,10 @@ template <lumis::Real R>
 struct Tint {
     glm::vec<3, R> color;
 
-    template <lumis::Real S>
-    using In = Tint<S>;
-
     [[nodiscard]] LUMIS_INLINE const glm::vec<3, R>& reflectance(R /*cosine*/) const { return color; }
 };
 
-// A rough metal: microfacets of GGX, each a mirror. What is reflected twice is lost, see Compensated.
+// A rough metal: microfacets of GGX, each a mirror. What would be reflected more than once is lost, see Compensated.
 template <lumis::Real R, template <class> class Reflectance = Conductor>
 struct Metal {
     Reflectance<R> surface;
@@ -47,19 +42,23 @@ struct Metal {
     using In = Metal<S, Reflectance>;
     static constexpr bool is_delta = false, transmits = false;
 
-    [[nodiscard]] LUMIS_INLINE auto strategy(const glm::vec<3, R>& wo) const {
-        return lumis::GgxReflection<R>{wo, alpha};
+    struct Bsdf : lumis::GgxReflection<R> {
+        Reflectance<R> surface;
+        glm::vec<3, R> wo;
+
+        [[nodiscard]] LUMIS_INLINE Scattering<R> evaluate(const glm::vec<3, R>& wi) const {
+            const R pdf = this->pdf(wi);
+            return {finite_where(pdf > 0, surface.reflectance(cos_half(wo, wi)) * (this->weight(wi) * pdf)), pdf};
+        }
+    };
+    [[nodiscard]] LUMIS_INLINE Bsdf strategy(const glm::vec<3, R>& wo) const { return {{wo, alpha}, surface, wo}; }
+    [[nodiscard]] LUMIS_INLINE glm::vec<3, R> albedo_seen(const glm::vec<3, R>& wo) const {
+        return surface.reflectance(wo.z);
     }
-    [[nodiscard]] LUMIS_INLINE Scattering<R> evaluate(const glm::vec<3, R>& wo, const glm::vec<3, R>& wi) const {
-        const auto ggx = strategy(wo);
-        const R pdf = ggx.pdf(wi);
-        return {finite_where(pdf > 0, surface.reflectance(cos_half(wo, wi)) * (ggx.weight(wi) * pdf)), pdf};
-    }
-    [[nodiscard]] LUMIS_INLINE auto albedo_seen(const glm::vec<3, R>& wo) const { return surface.reflectance(wo.z); }
 };
 
-// A rough metal that loses nothing to reflections between its facets (Turquin 2019): a white one reflects 99.1 % or more
-// of a white sky. A little less reciprocal than nature: wo is the direction towards the camera.
+// A rough metal that loses nothing between its facets (Turquin 2019): a white one reflects 99.1 % or more of a white sky.
+// Not reciprocal: wo is the direction towards the camera.
 template <class M>
 struct Compensated {
     M metal;
@@ -69,15 +68,22 @@ struct Compensated {
     using In = Compensated<typename M::template In<S>>;
     static constexpr bool is_delta = false, transmits = false;
 
-    [[nodiscard]] LUMIS_INLINE auto strategy(const glm::vec<3, Scalar>& wo) const { return metal.strategy(wo); }
-    [[nodiscard]] LUMIS_INLINE Scattering<Scalar> evaluate(const glm::vec<3, Scalar>& wo,
-                                                           const glm::vec<3, Scalar>& wi) const {
-        const auto [reflected, pdf] = metal.evaluate(wo, wi);
-        const glm::vec<3, Scalar> factor =
-            lumis::ggx_compensation(lumis::Ggx<Scalar>{metal.alpha}, wo, metal.surface.reflectance(Scalar(1.0f)));
-        return {finite_where(pdf > 0, reflected * factor), pdf};
+    struct Bsdf : M::Bsdf {
+        glm::vec<3, Scalar> gain;
+
+        [[nodiscard]] LUMIS_INLINE Scattering<Scalar> evaluate(const glm::vec<3, Scalar>& wi) const {
+            const auto lossy = M::Bsdf::evaluate(wi);
+            return {lossy.reflected * gain, lossy.pdf};
+        }
+    };
+    [[nodiscard]] LUMIS_INLINE Bsdf strategy(const glm::vec<3, Scalar>& wo) const {
+        const auto lossy = metal.strategy(wo);
+        const auto gain = lumis::ggx_compensation(lossy.ggx(), wo, metal.surface.reflectance(Scalar(1.0f)));
+        return {lossy, finite_where(wo.z > 0, gain)};
     }
-    [[nodiscard]] LUMIS_INLINE auto albedo_seen(const glm::vec<3, Scalar>& wo) const { return metal.albedo_seen(wo); }
+    [[nodiscard]] LUMIS_INLINE glm::vec<3, Scalar> albedo_seen(const glm::vec<3, Scalar>& wo) const {
+        return metal.albedo_seen(wo);
+    }
 };
 
 // A polished metal.
@@ -90,13 +96,17 @@ struct Mirror {
     using In = Mirror<S, Reflectance>;
     static constexpr bool is_delta = true, transmits = false;
 
-    [[nodiscard]] LUMIS_INLINE static auto strategy(const glm::vec<3, R>& wo) {
-        return lumis::PerfectReflection<R>{wo};
+    struct Bsdf : lumis::PerfectReflection<R> {
+        glm::vec<3, R> color;
+
+        [[nodiscard]] LUMIS_INLINE glm::vec<3, R> coefficient(const glm::vec<3, R>& /*wi*/) const { return color; }
+    };
+    [[nodiscard]] LUMIS_INLINE Bsdf strategy(const glm::vec<3, R>& wo) const {
+        return {lumis::PerfectReflection<R>{wo}, finite_where(wo.z > 0, surface.reflectance(wo.z))};
     }
-    [[nodiscard]] LUMIS_INLINE auto coefficient(const glm::vec<3, R>& wo, const glm::vec<3, R>& /*wi*/) const {
-        return finite_where(wo.z > 0, surface.reflectance(wo.z));
+    [[nodiscard]] LUMIS_INLINE glm::vec<3, R> albedo_seen(const glm::vec<3, R>& wo) const {
+        return surface.reflectance(wo.z);
     }
-    [[nodiscard]] LUMIS_INLINE auto albedo_seen(const glm::vec<3, R>& wo) const { return surface.reflectance(wo.z); }
 };
 
 }  // namespace tracer

@@ -1,18 +1,18 @@
-// Materials: how a surface scatters light, and the strategy to sample it by. Local frame, +z the normal; directions are unit
-// vectors that point away from the surface. A material is an aggregate of nothing but numbers: a scene keeps it of floats,
-// and packets of paths gather it into M::In<Lanes>, number by number.
+// Materials: how a surface scatters light. Local frame, +z the normal; directions are unit vectors that point away from the
+// surface. A material is an aggregate of nothing but numbers: a scene keeps it of floats, and packets of paths gather it into
+// M::In<Lanes>, number by number.
 //
 //   is_delta               it scatters into single directions: no light is asked
 //   transmits              it scatters to both sides: +z is outside, and wo may be below; otherwise +z is wo's side
-//   strategy(wo)           draws wi
-//   evaluate(wo, wi)       what is scattered from wi to wo, and the density of strategy(wo) at wi: see Scattering
-//   coefficient(wo, wi)    of a delta material instead: by what a path's throughput is multiplied, before it is divided
-//                          by the probability of wi, the pdf of its sample
-//   albedo_seen(wo)        roughly how much of a white sky it scatters to wo: for a denoiser
+//   strategy(wo)           its BSDF as seen from wo, a strategy that draws wi. All that depends on wo alone is formed here
+//     .evaluate(wi)        what is scattered from wi to wo, and the density of wi, which share work: see Scattering
+//     .coefficient(wi)     instead, if it is a delta strategy: multiply a path's throughput by it, and divide by the pdf
+//                          of the sample
+//   albedo_seen(wo)        roughly how much of a white sky it scatters to wo, for a denoiser
 //
 // What is scattered is finite and not negative, whatever numbers a lane holds: 0 where directions are on the wrong side or are
-// none. A lane that is not in use holds a unit wo all the same, such as (0, 0, 1): any other fails an assertion in debug
-// builds, and takes time in others.
+// none. A lane that is not in use holds a material and a unit wo all the same, such as (0, 0, 1): others fail assertions in
+// debug builds, and take time in the rest.
 #pragma once
 
 #include "material_glass.hpp"
@@ -33,18 +33,22 @@ struct Diffuse {
     using In = Diffuse<S>;
     static constexpr bool is_delta = false, transmits = false;
 
-    [[nodiscard]] LUMIS_INLINE static auto strategy(const glm::vec<3, R>& /*wo*/) {
-        return lumis::CosineHemisphere<R>{};
+    struct Bsdf : lumis::CosineHemisphere<R> {
+        glm::vec<3, R> albedo;
+
+        [[nodiscard]] LUMIS_INLINE Scattering<R> evaluate(const glm::vec<3, R>& wi) const {
+            const R pdf = this->pdf(wi);
+            return {albedo * pdf, pdf};
+        }
+    };
+    [[nodiscard]] LUMIS_INLINE Bsdf strategy(const glm::vec<3, R>& wo) const {
+        return {{}, finite_where(wo.z > 0, albedo)};
     }
-    [[nodiscard]] LUMIS_INLINE Scattering<R> evaluate(const glm::vec<3, R>& wo, const glm::vec<3, R>& wi) const {
-        const R pdf = strategy(wo).pdf(wi);
-        return {finite_where(wo.z > 0, albedo * pdf), pdf};
-    }
-    [[nodiscard]] LUMIS_INLINE auto albedo_seen(const glm::vec<3, R>& /*wo*/) const { return albedo; }
+    [[nodiscard]] LUMIS_INLINE glm::vec<3, R> albedo_seen(const glm::vec<3, R>& /*wo*/) const { return albedo; }
 };
 
-// A rough dielectric coat over a diffuse base: a mixture of two lobes, chosen by what each reflects at wo. The coat does not
-// darken the base; together they reflect less than all if the base is as dark as a coat at grazing angles is bright.
+// A rough dielectric coat over a diffuse base: a mixture of two lobes, chosen by what each reflects at wo. The coat takes no
+// light from the base: at grazing angles, where it reflects nearly all, both together reflect more than comes in.
 template <lumis::Real R>
 struct Coated {
     glm::vec<3, R> albedo;
@@ -56,30 +60,34 @@ struct Coated {
     using In = Coated<S>;
     static constexpr bool is_delta = false, transmits = false;
 
-    [[nodiscard]] LUMIS_INLINE auto strategy(const glm::vec<3, R>& wo) const {
-        const R share = coat_share(wo);
-        return lumis::Mixture{lumis::choose(1 - share, lumis::CosineHemisphere<R>{}),
-                              lumis::choose(share, lumis::GgxReflection<R>{wo, alpha})};
-    }
-    [[nodiscard]] LUMIS_INLINE Scattering<R> evaluate(const glm::vec<3, R>& wo, const glm::vec<3, R>& wi) const {
-        const lumis::GgxReflection<R> rough{wo, alpha};
-        const R base = lumis::CosineHemisphere<R>{}.pdf(wi), coat = rough.pdf(wi), share = coat_share(wo);
-        const R gloss = lumis::fresnel_dielectric(cos_half(wo, wi), index) * (rough.weight(wi) * coat);
-        return {finite_where(wo.z > 0, albedo * base + gloss), (1 - share) * base + share * coat};
-    }
-    [[nodiscard]] LUMIS_INLINE auto albedo_seen(const glm::vec<3, R>& wo) const {
-        return albedo + lumis::fresnel_dielectric(wo.z, index);
-    }
+    using Lobes = lumis::Mixture<lumis::CosineHemisphere<R>, lumis::GgxReflection<R>>;
+    struct Bsdf : Lobes {
+        glm::vec<3, R> albedo, wo;
+        R index;
 
-  private:
-    [[nodiscard]] LUMIS_INLINE R coat_share(const glm::vec<3, R>& wo) const {
+        [[nodiscard]] LUMIS_INLINE Scattering<R> evaluate(const glm::vec<3, R>& wi) const {
+            const auto& cosine = this->template strategy<0>();
+            const auto& ggx = this->template strategy<1>();
+            const R base = cosine.pdf(wi), coat = ggx.pdf(wi);
+            const R gloss = lumis::fresnel_dielectric(cos_half(wo, wi), index) * (ggx.weight(wi) * coat);
+            return {finite_where(wo.z > 0, albedo * base + gloss),
+                    this->template probability<0>() * base + this->template probability<1>() * coat};
+        }
+    };
+    [[nodiscard]] LUMIS_INLINE Bsdf strategy(const glm::vec<3, R>& wo) const {
         const R coat = lumis::fresnel_dielectric(wo.z, index);
         const R sum = coat + lumis::real::greater(lumis::real::greater(albedo.x, albedo.y), albedo.z);
-        return lumis::real::quotient_where(sum > 0, coat, sum);
+        const R share = lumis::real::quotient_where(sum > 0, coat, sum);
+        return {Lobes{lumis::choose(1 - share, lumis::CosineHemisphere<R>{}),
+                      lumis::choose(share, lumis::GgxReflection<R>{wo, alpha})},
+                albedo, wo, index};
+    }
+    [[nodiscard]] LUMIS_INLINE glm::vec<3, R> albedo_seen(const glm::vec<3, R>& wo) const {
+        return albedo + lumis::fresnel_dielectric(wo.z, index);
     }
 };
 
-// Two materials side by side, finer than any pixel: a share of the surface is b, the rest a.
+// Two materials side by side, finer than any pixel: a share of the surface, from 0 to 1, is b, and the rest a.
 template <class A, class B>
 struct Blend {
     A a;
@@ -90,17 +98,21 @@ struct Blend {
     template <lumis::Real S>
     using In = Blend<typename A::template In<S>, typename B::template In<S>>;
     static constexpr bool is_delta = false, transmits = A::transmits || B::transmits;
-    static_assert(!(A::is_delta || B::is_delta), "a mixture has a density: give the polished part some roughness");
+    static_assert(!(A::is_delta || B::is_delta), "a blend has a density: give what is polished a little roughness");
 
-    [[nodiscard]] LUMIS_INLINE auto strategy(const glm::vec<3, Scalar>& wo) const {
-        return lumis::Mixture{lumis::choose(1 - share, a.strategy(wo)), lumis::choose(share, b.strategy(wo))};
+    using Lobes = lumis::Mixture<typename A::Bsdf, typename B::Bsdf>;
+    struct Bsdf : Lobes {
+        [[nodiscard]] LUMIS_INLINE Scattering<Scalar> evaluate(const glm::vec<3, Scalar>& wi) const {
+            const auto of_a = this->template strategy<0>().evaluate(wi),
+                       of_b = this->template strategy<1>().evaluate(wi);
+            const Scalar share_a = this->template probability<0>(), share_b = this->template probability<1>();
+            return {share_a * of_a.reflected + share_b * of_b.reflected, share_a * of_a.pdf + share_b * of_b.pdf};
+        }
+    };
+    [[nodiscard]] LUMIS_INLINE Bsdf strategy(const glm::vec<3, Scalar>& wo) const {
+        return {Lobes{lumis::choose(1 - share, a.strategy(wo)), lumis::choose(share, b.strategy(wo))}};
     }
-    [[nodiscard]] LUMIS_INLINE Scattering<Scalar> evaluate(const glm::vec<3, Scalar>& wo,
-                                                           const glm::vec<3, Scalar>& wi) const {
-        const auto of_a = a.evaluate(wo, wi), of_b = b.evaluate(wo, wi);
-        return {(1 - share) * of_a.reflected + share * of_b.reflected, (1 - share) * of_a.pdf + share * of_b.pdf};
-    }
-    [[nodiscard]] LUMIS_INLINE auto albedo_seen(const glm::vec<3, Scalar>& wo) const {
+    [[nodiscard]] LUMIS_INLINE glm::vec<3, Scalar> albedo_seen(const glm::vec<3, Scalar>& wo) const {
         return (1 - share) * a.albedo_seen(wo) + share * b.albedo_seen(wo);
     }
 };
