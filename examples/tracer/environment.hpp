@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace tracer {
@@ -19,6 +20,7 @@ namespace tracer {
 class Environment {
   public:
     static constexpr bool is_background = true;
+    static constexpr std::size_t samples = 1;
     using Strategy = lumis::EnvironmentMap<float>;
 
     explicit Environment(const Image& map)
@@ -28,7 +30,6 @@ class Environment {
           strategy_{map.width, map.height, luminances(map), {lumis::Interpolation::Bilinear}} {}
 
     [[nodiscard]] const Strategy& strategy() const { return strategy_; }
-    [[nodiscard]] int samples() const { return strategy_.empty() ? 0 : 1; }
 
     template <lumis::Real R>
     [[nodiscard]] Vector<R> radiance(const Vector<R>& w) const {

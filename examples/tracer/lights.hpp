@@ -50,15 +50,13 @@ struct Extent {
 
 // A few lights of one shape: one is chosen in proportion to the irradiance that each can cause at most, roughly, and sampled.
 // Each is asked at every point: for up to eight.
-template <template <class> class Shape, class Sampling>
+// Samples: that a point takes of them; their choices are spread evenly.
+template <template <class> class Shape, class Sampling, std::size_t Samples = 1>
 class FewLights {
   public:
-    static constexpr std::size_t most = 8;
+    static constexpr std::size_t most = 8, samples = Samples;
     static constexpr bool is_background = false;
     using Strategy = lumis::AreaLight<Shape<float>, Sampling>;
-
-    // samples: of light at each point.
-    explicit FewLights(int samples = 1) : samples_{samples} {}
 
     // Returns the light's index.
     std::uint32_t add(const Shape<float>& shape, const glm::vec3& radiance) {
@@ -68,9 +66,6 @@ class FewLights {
         extents_.push_back({bounds.center, bounds.radius, bounds.area * brightest});
         return static_cast<std::uint32_t>(emitters_.size() - 1);
     }
-
-    [[nodiscard]] int samples() const { return samples_; }
-    [[nodiscard]] bool empty() const { return emitters_.empty(); }
 
     template <lumis::Real R>
     [[nodiscard]] Vector<R> radiance(const Indices<R>& light) const {
@@ -107,8 +102,8 @@ class FewLights {
                 }
             }
             const Emitter<R> emitter = gather<Emitter<R>, R>(lights_.emitters_, chosen);
-            const auto drawn = lumis::AreaLight<Shape<R>, Sampling>{emitter.shape, position_}.sample(
-                glm::vec<2, R>{u.y, u.z});
+            const auto drawn =
+                lumis::AreaLight<Shape<R>, Sampling>{emitter.shape, position_}.sample(glm::vec<2, R>{u.y, u.z});
             const R chance = lumis::real::quotient_where(total_ > 0.0f, share, total_);
             return {drawn.value, drawn.pdf * chance, drawn.distance, emitter.radiance};
         }
@@ -121,8 +116,7 @@ class FewLights {
                 share = lumis::real::select(is_met, i == 0 ? up_to_[0] : up_to_[i] - up_to_[i - 1], share);
             }
             const Emitter<R> emitter = gather<Emitter<R>, R>(lights_.emitters_, light);
-            const R pdf =
-                lumis::AreaLight<Shape<R>, Sampling>{emitter.shape, position_}.pdf_from_hit(distance, cosine);
+            const R pdf = lumis::AreaLight<Shape<R>, Sampling>{emitter.shape, position_}.pdf_from_hit(distance, cosine);
             return lumis::real::quotient_where(total_ > 0.0f, share, total_) * pdf;
         }
 
@@ -145,7 +139,6 @@ class FewLights {
         Vector<R> radiance;
     };
 
-    int samples_;
     std::vector<Emitter<float>> emitters_;
     std::vector<Extent<float>> extents_;  // whose areas are times radiance
 };
@@ -154,12 +147,10 @@ class FewLights {
 template <class... Groups>
 class Lights {
   public:
-    explicit Lights(Groups... groups) : groups_{std::move(groups)...} {}
+    static constexpr std::size_t samples = (Groups::samples + ...);
 
-    template <std::size_t G>
-    [[nodiscard]] auto& group() {
-        return std::get<G>(groups_);
-    }
+    Lights() = default;
+    explicit Lights(Groups... groups) : groups_{std::move(groups)...} {}
 
     // Puts a light into a group: its surface, which reflects nothing.
     template <std::size_t G>
@@ -180,7 +171,8 @@ class Lights {
     void for_each(auto visit) const {
         [&]<std::size_t... G>(std::index_sequence<G...>) {
             (visit(std::get<G>(groups_), std::integral_constant<std::size_t, G>{}), ...);
-        }(std::index_sequence_for<Groups...>{});
+        }
+        (std::index_sequence_for<Groups...>{});
     }
 
   private:

@@ -24,8 +24,7 @@ class Materials {
     static constexpr bool transmit = (Kinds::transmits || ...);
 
     // Uniforms that sample any of the kinds.
-    static constexpr int dimensions =
-        std::max({decltype(std::declval<Kinds>().strategy(glm::vec3{}))::dimensions...});
+    static constexpr int dimensions = std::max({decltype(std::declval<Kinds>().strategy(glm::vec3{}))::dimensions...});
 
     // The strategy of each kind, by its type.
     [[nodiscard]] static std::vector<std::string> strategies() {
@@ -57,7 +56,8 @@ class Materials {
         };
         [&]<std::size_t... K>(std::index_sequence<K...>) {
             (visit_kind.template operator()<K, Kinds>(), ...);
-        }(std::index_sequence_for<Kinds...>{});
+        }
+        (std::index_sequence_for<Kinds...>{});
     }
 
     // Whether they are delta materials.

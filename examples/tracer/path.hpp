@@ -11,6 +11,7 @@
 #include "transport.hpp"
 #include <lumis/lumis.hpp>
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -24,8 +25,9 @@ template <class S>
 concept Scene = requires(const S scene) {
     { scene.geometry() } -> std::same_as<const Geometry&>;
     typename S::MaterialTable;  // Materials<...>
+    typename S::LightTable;     // Lights<...>
     { scene.materials() } -> std::same_as<const typename S::MaterialTable&>;
-    scene.lights();     // Lights<...>
+    { scene.lights() } -> std::same_as<const typename S::LightTable&>;
 };
 
 // What a path has found, in each lane.
@@ -54,20 +56,23 @@ class PathTracer {
             if (bounce == 1) found.albedo = albedo_at(on, vertex, alive);
             const auto lights = scene_.lights().template seen_from<R>(vertex.receiver());
 
-            // Next event estimation. A polished material asks no light; the one-sample model asks in half of all cases.
-            Mask<R> asks = alive && !on.is_polished && Mask<R>(asks_lights(integrator_));
-            Mask<R> goes_on = alive;
+            // A polished material asks no light. The one-sample model asks lights in half of all cases, else the BSDF.
+            const Mask<R> is_found_by_both = !on.is_polished && Mask<R>(asks_lights(integrator_));
+            Mask<R> asks = alive && is_found_by_both, goes_on = alive;
             if (integrator_ == Integrator::OneSample) {
                 asks = asks && uniforms_.template next<1>().x < 0.5f;
                 goes_on = alive && !asks;
             }
-            if (any(asks)) found.radiance += throughput * direct_light(lights, on, vertex, asks);
 
-            // The path goes on along the BSDF.
-            const Scattered next = scattered(on, vertex, goes_on);
+            // Directions of both: towards lights, and by the BSDF.
+            Draws draws;
+            if (any(asks)) draws = drawn_from(lights);
+            const Scattered next = scattered(on, vertex, alive, goes_on, asks, draws);
+            if (any(asks)) found.radiance += throughput * direct_light(draws, vertex, asks);
+
+            // The path goes on.
             throughput *= next.factor;
             alive = goes_on && next.is_drawn;
-            const Mask<R> is_found_by_both = !on.is_polished && Mask<R>(asks_lights(integrator_));
             if (integrator_ == Integrator::OneSample) {
                 throughput *= lumis::real::select(is_found_by_both, R(2.0f), R(1.0f));
             }
@@ -137,50 +142,32 @@ class PathTracer {
         }
     };
 
-    // Light from all groups that is scattered to the viewer, over throughput.
-    [[nodiscard]] LUMIS_INLINE Vector<R> direct_light(const auto& lights, const Surfaces& on, const Vertex& vertex,
-                                                      const Mask<R>& asks) {
-        Vector<R> sum = black;
+    // Samples of light, each with what the material scatters of it.
+    struct Draw {
+        LightDraw<R> light;
+        R own;  // its effective density
+        Scattering<R> scattering;
+    };
+    using Draws = std::array<Draw, S::LightTable::samples>;
+
+    [[nodiscard]] LUMIS_INLINE Draws drawn_from(const auto& lights) {
+        Draws draws;
+        std::size_t at = 0;
         scene_.lights().for_each([&](const auto& group, auto g) {
-            const int count = group.samples();
-            for (int i = 0; i < count; ++i) {
+            constexpr std::size_t count = std::remove_cvref_t<decltype(group)>::samples;
+            for (std::size_t i = 0; i < count; ++i) {
                 glm::vec<3, R> u = uniforms_.template next<3>();
                 u.x = (u.x + static_cast<float>(i)) * (1.0f / static_cast<float>(count));
-                const LightDraw<R> drawn = std::get<g>(lights).sample(u);
-                Mask<R> arrives = asks && drawn.pdf > 0.0f;
-                const Scattering<R> scattering = evaluate(on, vertex, drawn.direction, arrives);
-                const R own = effective(static_cast<float>(count) * drawn.pdf), other = effective(scattering.pdf);
-                const R weight = weight_of_light_sample(integrator_, own, other);
-                const R factor = lumis::real::quotient_where(arrives, weight, own);
-                const Vector<R> light = scattering.reflected * drawn.radiance * factor;
-                arrives = arrives && light.x + light.y + light.z > 0.0f;
-                if (!any(arrives)) continue;
-                const Ray<R> shadow{vertex.position, lumis::real::select(arrives, drawn.direction, up)};
-                arrives = arrives && !scene_.geometry().is_occluded(shadow, drawn.distance, arrives);
-                sum += lumis::real::select(arrives, light, black);
+                const LightDraw<R> light = std::get<g>(lights).sample(u);
+                draws[at++] = {light, effective(static_cast<float>(count) * light.pdf), {black, R(0.0f)}};
             }
         });
-        return sum;
+        return draws;
     }
 
     // A density times the probability of taking a sample.
     [[nodiscard]] LUMIS_INLINE R effective(const R& density) const {
         return integrator_ == Integrator::OneSample ? R(0.5f * density) : density;
-    }
-
-    [[nodiscard]] LUMIS_INLINE Scattering<R> evaluate(const Surfaces& on, const Vertex& vertex, const Vector<R>& wi,
-                                                      const Mask<R>& asked) const {
-        Scattering<R> result{black, R(0.0f)};
-        scene_.materials().template visit<R>(on.kind, on.material, asked, [&](const auto& material, const Mask<R>& mask) {
-            using Material = std::remove_cvref_t<decltype(material)>;
-            if constexpr (!Material::is_delta) {
-                const auto frame = vertex.template frame<Material::transmits>();
-                const Scattering<R> one = material.evaluate(frame.to_local(vertex.wo), frame.to_local(wi));
-                result = {lumis::real::select(mask, one.reflected, result.reflected),
-                          lumis::real::select(mask, one.pdf, result.pdf)};
-            }
-        });
-        return result;
     }
 
     // A direction drawn by the BSDF. factor: what throughput is multiplied by.
@@ -189,39 +176,72 @@ class PathTracer {
         R pdf;  // 0 of a polished material
         Mask<R> is_drawn;
     };
-    [[nodiscard]] LUMIS_INLINE Scattered scattered(const Surfaces& on, const Vertex& vertex, const Mask<R>& asked) {
-        Scattered result{up, black, R(0.0f), Mask<R>(false)};
+
+    // Draws by the BSDF in the lanes that go on, and tells lanes that ask lights what it scatters of their draws.
+    [[nodiscard]] LUMIS_INLINE Scattered scattered(const Surfaces& on, const Vertex& vertex, const Mask<R>& alive,
+                                                   const Mask<R>& goes_on, const Mask<R>& asks, Draws& draws) {
+        Scattered next{up, black, R(0.0f), Mask<R>(false)};
         const auto u = uniforms_.template next<S::MaterialTable::dimensions>();
-        scene_.materials().template visit<R>(on.kind, on.material, asked, [&](const auto& material, const Mask<R>& mask) {
-            using Material = std::remove_cvref_t<decltype(material)>;
-            const auto frame = vertex.template frame<Material::transmits>();
-            const Vector<R> wo = frame.to_local(vertex.wo);
-            const auto strategy = material.strategy(wo);
-            const auto drawn = strategy.sample(first<std::remove_cvref_t<decltype(strategy)>::dimensions>(u));
-            const Mask<R> is_drawn = mask && drawn.pdf > 0.0f;
-            const R inverse = lumis::real::quotient_where(is_drawn, R(1.0f), drawn.pdf);
-            const auto put = [&](const Vector<R>& value, const R& pdf) {
-                result.direction = lumis::real::select(is_drawn, frame.to_world(drawn.value), result.direction);
-                result.factor = lumis::real::select(is_drawn, value * inverse, result.factor);
-                result.pdf = lumis::real::select(is_drawn, pdf, result.pdf);
-                result.is_drawn = result.is_drawn || is_drawn;
-            };
-            if constexpr (Material::is_delta) {
-                put(material.coefficient(wo, drawn.value), R(0.0f));
-            } else {
-                put(material.evaluate(wo, drawn.value).reflected, drawn.pdf);
-            }
-        });
-        return result;
+        scene_.materials().template visit<R>(
+            on.kind, on.material, alive, [&](const auto& material, const Mask<R>& mask) {
+                using Material = std::remove_cvref_t<decltype(material)>;
+                const auto frame = vertex.template frame<Material::transmits>();
+                const auto bsdf = material.strategy(frame.to_local(vertex.wo));
+                if constexpr (!Material::is_delta) {
+                    const Mask<R> hears = mask && asks;
+                    if (any(hears)) {
+                        for (Draw& draw : draws) {
+                            const Scattering<R> one = bsdf.evaluate(frame.to_local(draw.light.direction));
+                            draw.scattering = {lumis::real::select(hears, one.reflected, draw.scattering.reflected),
+                                               lumis::real::select(hears, one.pdf, draw.scattering.pdf)};
+                        }
+                    }
+                }
+                const auto drawn = bsdf.sample(first<std::remove_cvref_t<decltype(bsdf)>::dimensions>(u));
+                const Mask<R> is_drawn = mask && goes_on && drawn.pdf > 0.0f;
+                const auto [value, pdf] = value_at(bsdf, drawn);
+                const Vector<R> factor = value * lumis::real::quotient_where(is_drawn, R(1.0f), drawn.pdf);
+                next.direction = lumis::real::select(is_drawn, frame.to_world(drawn.value), next.direction);
+                next.factor = lumis::real::select(is_drawn, factor, next.factor);
+                next.pdf = lumis::real::select(is_drawn, pdf, next.pdf);
+                next.is_drawn = next.is_drawn || is_drawn;
+            });
+        return next;
+    }
+
+    [[nodiscard]] LUMIS_INLINE static Scattering<R> value_at(const auto& bsdf, const auto& drawn) {
+        if constexpr (requires { bsdf.coefficient(drawn.value); }) {
+            return {bsdf.coefficient(drawn.value), R(0.0f)};
+        } else {
+            return {bsdf.evaluate(drawn.value).reflected, drawn.pdf};
+        }
+    }
+
+    // What the material scatters of the draws that nothing hides, weighted.
+    [[nodiscard]] LUMIS_INLINE Vector<R> direct_light(const Draws& draws, const Vertex& vertex, const Mask<R>& asks) {
+        Vector<R> sum = black;
+        for (const Draw& draw : draws) {
+            Mask<R> arrives = asks && draw.light.pdf > 0.0f;
+            const R weight = weight_of_light_sample(integrator_, draw.own, effective(draw.scattering.pdf));
+            const R factor = lumis::real::quotient_where(arrives, weight, draw.own);
+            const Vector<R> light = draw.scattering.reflected * draw.light.radiance * factor;
+            arrives = arrives && light.x + light.y + light.z > 0.0f;
+            if (!any(arrives)) continue;
+            const Ray<R> shadow{vertex.position, lumis::real::select(arrives, draw.light.direction, up)};
+            arrives = arrives && !scene_.geometry().is_occluded(shadow, draw.light.distance, arrives);
+            sum += lumis::real::select(arrives, light, black);
+        }
+        return sum;
     }
 
     [[nodiscard]] Vector<R> albedo_at(const Surfaces& on, const Vertex& vertex, const Mask<R>& asked) const {
         Vector<R> result = black;
-        scene_.materials().template visit<R>(on.kind, on.material, asked, [&](const auto& material, const Mask<R>& mask) {
-            using Material = std::remove_cvref_t<decltype(material)>;
-            const auto frame = vertex.template frame<Material::transmits>();
-            result = lumis::real::select(mask, Vector<R>(material.albedo_seen(frame.to_local(vertex.wo))), result);
-        });
+        scene_.materials().template visit<R>(
+            on.kind, on.material, asked, [&](const auto& material, const Mask<R>& mask) {
+                using Material = std::remove_cvref_t<decltype(material)>;
+                const auto frame = vertex.template frame<Material::transmits>();
+                result = lumis::real::select(mask, Vector<R>(material.albedo_seen(frame.to_local(vertex.wo))), result);
+            });
         return result;
     }
 
@@ -258,9 +278,10 @@ class PathTracer {
                 radiance = group.template radiance<R>(light);
                 light_pdf = std::get<g>(lights).pdf_from_hit(light, hit.distance, glm::dot(hit.normal, ray.direction));
             }
-            const R other = effective(static_cast<float>(group.samples()) * light_pdf);
+            const R other = effective(static_cast<float>(group.samples) * light_pdf);
             const R weight = weight_of_bsdf_sample(integrator_, effective(bsdf_pdf), other);
-            result = lumis::real::select(is_met, radiance * lumis::real::select(is_found_by_both, weight, R(1.0f)), result);
+            result =
+                lumis::real::select(is_met, radiance * lumis::real::select(is_found_by_both, weight, R(1.0f)), result);
         });
         return result;
     }

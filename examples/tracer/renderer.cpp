@@ -9,7 +9,7 @@ namespace tracer {
 
 namespace {
 
-constexpr std::array<SceneEntry, 2> all_scenes{{
+constexpr std::array<SceneEntry, 4> all_scenes{{
     {"veach", "Veach's plates and spheres",
      "Four coated plates, the farthest the smoothest, reflect five sphere lights of falling size and rising radiance. "
      "Sampling the lights fails where a smooth plate mirrors a large light, sampling the BSDF where a rough one "
@@ -18,6 +18,15 @@ constexpr std::array<SceneEntry, 2> all_scenes{{
     {"sky", "Rising roughness under a sunset",
      "A mirror, four metals of roughness 0.01, 0.05, 0.15 and 0.4, and chalk, under a photographed sky.", 768, 384,
      true, make_sky},
+    {"cornell", "Cornell box",
+     "One rectangular light hangs over diffuse walls, a diffuse block and a coated one: sampling the light is nearly "
+     "all that this scene needs.",
+     512, 512, false, make_cornell},
+    {"veach-metal", "Veach's plates of metal",
+     "The plates and lights of the scene veach, but the plates reflect all light as rough metal does, as other "
+     "renderers have "
+     "them.",
+     768, 512, false, make_veach_metal},
 }};
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include "materials.hpp"
 
 #include <array>
-#include <cstdlib>
 
 namespace tracer {
 
@@ -40,7 +39,7 @@ template <class Plate>
 class Veach {
   public:
     using MaterialTable = Materials<Diffuse<float>, Plate>;
-    using LightTable = Lights<FewLights<lumis::Sphere, lumis::BySolidAngle>>;
+    using LightTable = Lights<FewLights<lumis::Sphere, lumis::BySolidAngle, veach_lights.size()>>;
 
     explicit Veach(auto plate_of_roughness) {
         const Surface wall = materials_.add(Diffuse<float>{glm::vec3{0.4f}});
@@ -67,7 +66,7 @@ class Veach {
   private:
     Geometry geometry_;
     MaterialTable materials_;
-    LightTable lights_{FewLights<lumis::Sphere, lumis::BySolidAngle>{std::getenv("NL") ? std::atoi(std::getenv("NL")) : 1}};
+    LightTable lights_;
 };
 
 }  // namespace tracer

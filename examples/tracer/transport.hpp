@@ -27,10 +27,14 @@ inline constexpr std::array<Named<Integrator>, 6> integrators{{{"bsdf", Integrat
 template <lumis::Real R>
 [[nodiscard]] LUMIS_INLINE inline R weight_of_light_sample(Integrator integrator, const R& own, const R& other) {
     switch (integrator) {
-    case Integrator::Light: return R(1.0f);
-    case Integrator::Power: return lumis::mis_weight(lumis::PowerHeuristic{}, own, other);
-    case Integrator::Average: return lumis::mis_weight(lumis::EqualWeights{}, own, other);
-    default: return lumis::mis_weight(lumis::BalanceHeuristic{}, own, other);
+        case Integrator::Light:
+            return R(1.0f);
+        case Integrator::Power:
+            return lumis::mis_weight(lumis::PowerHeuristic{}, own, other);
+        case Integrator::Average:
+            return lumis::mis_weight(lumis::EqualWeights{}, own, other);
+        default:
+            return lumis::mis_weight(lumis::BalanceHeuristic{}, own, other);
     }
 }
 template <lumis::Real R>
