@@ -33,7 +33,7 @@ class Cornell {
         geometry_.add(lumis::Parallelogram{corner + x, y, z}, green);  // right
         add_box({-0.36f, -1, -0.32f}, {0.6f, 1.2f, 0.6f}, 18, glossy);
         add_box({0.36f, -1, 0.34f}, {0.6f, 0.6f, 0.6f}, -17, white);
-        const lumis::Parallelogram<float> light{{-0.25f, 0.9f, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}};
+        const lumis::Parallelogram<float> light{{-0.25f, 0.99f, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}};
         geometry_.add(light, lights_.add<0>(light, glm::vec3{18, 14, 8}));
         geometry_.commit();
     }
