@@ -48,6 +48,13 @@ struct Extent {
     return {p.corner + 0.5f * (p.edge_u + p.edge_v), 0.5f * diagonal, glm::length(glm::cross(p.edge_u, p.edge_v))};
 }
 
+// A light of a shape.
+template <class Shape>
+struct Emitter {
+    Shape shape;
+    Vector<typename Shape::Scalar> radiance;
+};
+
 // A few lights of one shape: one is chosen in proportion to the irradiance that each can cause at most, roughly, and sampled.
 // Each is asked at every point: for up to eight.
 // Samples: that a point takes of them; their choices are spread evenly.
@@ -69,7 +76,7 @@ class FewLights {
 
     template <lumis::Real R>
     [[nodiscard]] Vector<R> radiance(const Indices<R>& light) const {
-        return gather<Emitter<R>, R>(emitters_, light).radiance;
+        return gather<Emitter<Shape<R>>, R>(emitters_, light).radiance;
     }
 
     template <lumis::Real R>
@@ -101,7 +108,7 @@ class FewLights {
                     chosen[k] = lane(is_beyond, k) ? static_cast<std::uint32_t>(i) : chosen[k];
                 }
             }
-            const Emitter<R> emitter = gather<Emitter<R>, R>(lights_.emitters_, chosen);
+            const Emitter<Shape<R>> emitter = gather<Emitter<Shape<R>>, R>(lights_.emitters_, chosen);
             const auto drawn =
                 lumis::AreaLight<Shape<R>, Sampling>{emitter.shape, position_}.sample(glm::vec<2, R>{u.y, u.z});
             const R chance = lumis::real::quotient_where(total_ > 0.0f, share, total_);
@@ -115,7 +122,7 @@ class FewLights {
                 const Mask<R> is_met = mask_of<R>([&](auto k) { return light[k] == i; });
                 share = lumis::real::select(is_met, i == 0 ? up_to_[0] : up_to_[i] - up_to_[i - 1], share);
             }
-            const Emitter<R> emitter = gather<Emitter<R>, R>(lights_.emitters_, light);
+            const Emitter<Shape<R>> emitter = gather<Emitter<Shape<R>>, R>(lights_.emitters_, light);
             const R pdf = lumis::AreaLight<Shape<R>, Sampling>{emitter.shape, position_}.pdf_from_hit(distance, cosine);
             return lumis::real::quotient_where(total_ > 0.0f, share, total_) * pdf;
         }
@@ -133,13 +140,7 @@ class FewLights {
     }
 
   private:
-    template <lumis::Real R>
-    struct Emitter {
-        Shape<R> shape;
-        Vector<R> radiance;
-    };
-
-    std::vector<Emitter<float>> emitters_;
+    std::vector<Emitter<Shape<float>>> emitters_;
     std::vector<Extent<float>> extents_;  // whose areas are times radiance
 };
 

@@ -53,7 +53,6 @@ class PathTracer {
             alive = alive && on.reflects;
             if (!any(alive)) break;
             const Vertex vertex{hit, ray.direction, alive};
-            if (bounce == 1) found.albedo = albedo_at(on, vertex, alive);
             const auto lights = scene_.lights().template seen_from<R>(vertex.receiver());
 
             // A polished material asks no light. The one-sample model asks lights in half of all cases, else the BSDF.
@@ -65,9 +64,10 @@ class PathTracer {
             }
 
             // Directions of both: towards lights, and by the BSDF.
-            Draws draws;
-            if (any(asks)) draws = drawn_from(lights);
+            Draws draws{};
+            if (asks_lights(integrator_)) draw_from(lights, asks, draws);
             const Scattered next = scattered(on, vertex, alive, goes_on, asks, draws);
+            if (bounce == 1) found.albedo = next.albedo;
             if (any(asks)) found.radiance += throughput * direct_light(draws, vertex, asks);
 
             // The path goes on.
@@ -150,19 +150,19 @@ class PathTracer {
     };
     using Draws = std::array<Draw, S::LightTable::samples>;
 
-    [[nodiscard]] LUMIS_INLINE Draws drawn_from(const auto& lights) {
-        Draws draws;
+    // Uniforms are spent whether or not a lane asks: what one lane finds does not depend on the others.
+    LUMIS_INLINE void draw_from(const auto& lights, const Mask<R>& asks, Draws& draws) {
         std::size_t at = 0;
         scene_.lights().for_each([&](const auto& group, auto g) {
             constexpr std::size_t count = std::remove_cvref_t<decltype(group)>::samples;
             for (std::size_t i = 0; i < count; ++i) {
                 glm::vec<3, R> u = uniforms_.template next<3>();
+                if (!any(asks)) continue;
                 u.x = (u.x + static_cast<float>(i)) * (1.0f / static_cast<float>(count));
                 const LightDraw<R> light = std::get<g>(lights).sample(u);
                 draws[at++] = {light, effective(static_cast<float>(count) * light.pdf), {black, R(0.0f)}};
             }
         });
-        return draws;
     }
 
     // A density times the probability of taking a sample.
@@ -175,18 +175,21 @@ class PathTracer {
         Vector<R> direction, factor;
         R pdf;  // 0 of a polished material
         Mask<R> is_drawn;
+        Vector<R> albedo;  // of the material
     };
 
     // Draws by the BSDF in the lanes that go on, and tells lanes that ask lights what it scatters of their draws.
     [[nodiscard]] LUMIS_INLINE Scattered scattered(const Surfaces& on, const Vertex& vertex, const Mask<R>& alive,
                                                    const Mask<R>& goes_on, const Mask<R>& asks, Draws& draws) {
-        Scattered next{up, black, R(0.0f), Mask<R>(false)};
+        Scattered next{up, black, R(0.0f), Mask<R>(false), black};
         const auto u = uniforms_.template next<S::MaterialTable::dimensions>();
         scene_.materials().template visit<R>(
             on.kind, on.material, alive, [&](const auto& material, const Mask<R>& mask) {
                 using Material = std::remove_cvref_t<decltype(material)>;
                 const auto frame = vertex.template frame<Material::transmits>();
-                const auto bsdf = material.strategy(frame.to_local(vertex.wo));
+                const Vector<R> wo = frame.to_local(vertex.wo);
+                const auto bsdf = material.strategy(wo);
+                next.albedo = lumis::real::select(mask, Vector<R>(material.albedo_seen(wo)), next.albedo);
                 if constexpr (!Material::is_delta) {
                     const Mask<R> hears = mask && asks;
                     if (any(hears)) {
@@ -232,17 +235,6 @@ class PathTracer {
             sum += lumis::real::select(arrives, light, black);
         }
         return sum;
-    }
-
-    [[nodiscard]] Vector<R> albedo_at(const Surfaces& on, const Vertex& vertex, const Mask<R>& asked) const {
-        Vector<R> result = black;
-        scene_.materials().template visit<R>(
-            on.kind, on.material, asked, [&](const auto& material, const Mask<R>& mask) {
-                using Material = std::remove_cvref_t<decltype(material)>;
-                const auto frame = vertex.template frame<Material::transmits>();
-                result = lumis::real::select(mask, Vector<R>(material.albedo_seen(frame.to_local(vertex.wo))), result);
-            });
-        return result;
     }
 
     // Light that the camera's ray meets.
