@@ -8,6 +8,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include <array>
@@ -24,12 +25,6 @@ namespace {
 template <class T>
 std::span<T> new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t count) {
     return {static_cast<T*>(rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), count)), count};
-}
-
-void attach(RTCScene scene, RTCGeometry geometry) {
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
 }
 
 // Embree's rays, alone or eight at once: a field is a number, or an array of eight.
@@ -54,15 +49,18 @@ X taken(const auto& field) {
 
 // A ray leaves a surface: what it meets nearer than its origin's own rounding is that surface.
 template <lumis::Real R>
-void fill(EmbreeRay<R>& to, const Ray<R>& ray, const R& farthest) {
+R nearest(const Vector<R>& o) {
     namespace real = lumis::real;
+    return 1e-4f * real::greater(real::greater(real::abs(o.x), real::abs(o.y)), real::greater(real::abs(o.z), R(1.0f)));
+}
+
+template <lumis::Real R>
+void fill(EmbreeRay<R>& to, const Ray<R>& ray, const R& farthest) {
     const Vector<R>& o = ray.origin;
-    const R extent =
-        real::greater(real::greater(real::abs(o.x), real::abs(o.y)), real::greater(real::abs(o.z), R(1.0f)));
     put(o.x, to.org_x);
     put(o.y, to.org_y);
     put(o.z, to.org_z);
-    put(R(1e-4f * extent), to.tnear);
+    put(nearest(o), to.tnear);
     put(ray.direction.x, to.dir_x);
     put(ray.direction.y, to.dir_y);
     put(ray.direction.z, to.dir_z);
@@ -124,24 +122,41 @@ void occlude(RTCScene scene, RTCRay8& ray, const std::array<int, 8>& asked) {
 Geometry::Geometry()
     : device_{rtcNewDevice(nullptr), rtcReleaseDevice}, scene_{rtcNewScene(device_.get()), rtcReleaseScene} {}
 
-void Geometry::add(const lumis::Parallelogram<float>& shape, const Surface& surface) {
+void Geometry::add(std::span<const lumis::Parallelogram<float>> shapes, std::span<const Surface> surfaces) {
     const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_QUAD);
-    const auto vertices = new_buffer<glm::vec3>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 4);
-    const auto far_corner = shape.corner + shape.edge_u + shape.edge_v;
-    vertices[0] = shape.corner;
-    vertices[1] = shape.corner + shape.edge_u;
-    vertices[2] = far_corner;
-    vertices[3] = shape.corner + shape.edge_v;
-    new_buffer<std::array<unsigned, 4>>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT4, 1)[0] = {0, 1, 2, 3};
-    attach(scene_.get(), geometry);
-    surfaces_.push_back(surface);
+    const auto vertices = new_buffer<glm::vec3>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 4 * shapes.size());
+    const auto indices = new_buffer<glm::uvec4>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT4, shapes.size());
+    for (std::uint32_t i = 0, at = 0; const auto& [corner, edge_u, edge_v] : shapes) {
+        indices[i++] = glm::uvec4{at, at + 1, at + 2, at + 3};
+        for (const glm::vec3& edge : {glm::vec3{0}, edge_u, edge_u + edge_v, edge_v}) vertices[at++] = corner + edge;
+    }
+    attach(geometry, surfaces);
 }
 
-void Geometry::add(const lumis::Sphere<float>& shape, const Surface& surface) {
+void Geometry::add(std::span<const lumis::Triangle<float>> shapes, std::span<const Surface> surfaces) {
+    const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    const auto vertices = new_buffer<glm::vec3>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3 * shapes.size());
+    const auto indices = new_buffer<glm::uvec3>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, shapes.size());
+    for (std::uint32_t i = 0, at = 0; const auto& [a, b, c] : shapes) {
+        indices[i++] = glm::uvec3{at, at + 1, at + 2};
+        for (const glm::vec3& corner : {a, b, c}) vertices[at++] = corner;
+    }
+    attach(geometry, surfaces);
+}
+
+void Geometry::add(std::span<const lumis::Sphere<float>> shapes, std::span<const Surface> surfaces) {
     const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
-    new_buffer<glm::vec4>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, 1)[0] = {shape.center, shape.radius};
-    attach(scene_.get(), geometry);
-    surfaces_.push_back(surface);
+    const auto vertices = new_buffer<glm::vec4>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, shapes.size());
+    for (std::size_t i = 0; i < shapes.size(); ++i) vertices[i] = {shapes[i].center, shapes[i].radius};
+    attach(geometry, surfaces);
+}
+
+void Geometry::attach(RTCGeometryTy* geometry, std::span<const Surface> surfaces) {
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_.get(), geometry);  // numbered from 0
+    rtcReleaseGeometry(geometry);
+    first_surface_.push_back(static_cast<std::uint32_t>(surfaces_.size()));
+    surfaces_.insert(surfaces_.end(), surfaces.begin(), surfaces.end());
 }
 
 void Geometry::commit() {
@@ -158,9 +173,11 @@ Hit<R> Geometry::closest(const Ray<R>& ray, const Mask<R>& asked) const {
     intersect(scene_.get(), query, lanes_asked);
 
     Hit<R> hit;
-    hit.surface = taken<Indices<R>>(query.hit.geomID);
-    hit.is_met = mask_of<R>([&](auto i) { return hit.surface[i] != RTC_INVALID_GEOMETRY_ID; });
-    for (std::uint32_t& index : hit.surface) index = index == RTC_INVALID_GEOMETRY_ID ? 0 : index;
+    const auto geometry = taken<Indices<R>>(query.hit.geomID), shape = taken<Indices<R>>(query.hit.primID);
+    hit.is_met = mask_of<R>([&](auto i) { return geometry[i] != RTC_INVALID_GEOMETRY_ID; });
+    for (std::size_t i = 0; i < lanes<R>; ++i) {
+        hit.surface[i] = lane(hit.is_met, i) ? first_surface_[geometry[i]] + shape[i] : 0;
+    }
     hit.distance = lumis::real::select(hit.is_met, taken<R>(query.ray.tfar), R(0.0f));
     hit.position = ray.origin + hit.distance * ray.direction;
     const Vector<R> normal{taken<R>(query.hit.Ng_x), taken<R>(query.hit.Ng_y), taken<R>(query.hit.Ng_z)};
@@ -176,7 +193,8 @@ Mask<R> Geometry::is_occluded(const Ray<R>& ray, const R& distance, const Mask<R
     EmbreeRay<R> query;
     fill(query, ray, R(distance * (1 - 1e-4f)));
     occlude(scene_.get(), query, lanes_asked);
-    return asked && taken<R>(query.tfar) < 0.0f;  // Embree's sign for yes
+    const Mask<R> is_met = taken<R>(query.tfar) < 0.0f;  // Embree's sign for yes
+    return asked && (is_met || distance <= nearest(ray.origin));
 }
 
 template Hit<float> Geometry::closest(const Ray<float>&, const Mask<float>&) const;

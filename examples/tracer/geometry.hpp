@@ -12,6 +12,7 @@
 #include <vector>
 
 struct RTCDeviceTy;
+struct RTCGeometryTy;
 struct RTCSceneTy;
 
 namespace tracer {
@@ -45,8 +46,14 @@ class Geometry {
   public:
     Geometry();
 
-    void add(const lumis::Parallelogram<float>& shape, const Surface& surface);
-    void add(const lumis::Sphere<float>& shape, const Surface& surface);
+    // Shapes of one kind, and the surface of each.
+    void add(std::span<const lumis::Parallelogram<float>> shapes, std::span<const Surface> surfaces);
+    void add(std::span<const lumis::Triangle<float>> shapes, std::span<const Surface> surfaces);
+    void add(std::span<const lumis::Sphere<float>> shapes, std::span<const Surface> surfaces);
+    template <class Shape>
+    void add(const Shape& shape, const Surface& surface) {
+        add(std::span<const Shape>{&shape, 1}, std::span<const Surface>{&surface, 1});
+    }
 
     // After the last shape and before the first ray.
     void commit();
@@ -55,16 +62,20 @@ class Geometry {
     template <lumis::Real R>
     [[nodiscard]] Hit<R> closest(const Ray<R>& ray, const Mask<R>& asked) const;
 
-    // Whether something stands nearer than the distance, in the lanes asked for.
+    // Whether something stands nearer than the distance, in the lanes asked for; or whether that point is so near that
+    // closest() would not meet it.
     template <lumis::Real R>
     [[nodiscard]] Mask<R> is_occluded(const Ray<R>& ray, const R& distance, const Mask<R>& asked) const;
 
     [[nodiscard]] const Surface& surface(std::uint32_t index) const { return surfaces_[index]; }
 
   private:
+    void attach(RTCGeometryTy* geometry, std::span<const Surface> surfaces);
+
     std::shared_ptr<RTCDeviceTy> device_;
     std::shared_ptr<RTCSceneTy> scene_;
-    std::vector<Surface> surfaces_;  // by Embree's geometry number
+    std::vector<Surface> surfaces_;
+    std::vector<std::uint32_t> first_surface_;  // of each of Embree's geometries
 };
 
 }  // namespace tracer
