@@ -1,0 +1,316 @@
+// Materials: lanes of them are single ones, and each scatters what it should. The answers are quadratures in double.
+#include "assertions.hpp"
+#include "catch.hpp"
+#include "material_subjects.hpp"
+#include "white_furnace.hpp"
+#include <lumis/core/lanes.hpp>
+#include <lumis/testing/materials.hpp>
+#include <lumis/testing/unbiased.hpp>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <string_view>
+#include <utility>
+
+namespace {
+
+namespace laws = lumis::testing;
+using namespace subjects;
+
+using L = lumis::Lanes<float, 8>;
+
+// The mean of scattered light times g(wi) over its density, for samples of the strategy, is the quadrature of it.
+template <class M>
+laws::UnbiasedResult samples_agree(const M& material, const glm::dvec3& wo, const auto& g) {
+    const auto bsdf = material.strategy(glm::vec3{wo});
+    lumis::Uniforms<std::mt19937, float> uniforms{std::mt19937{1}};
+    const auto estimate = [&] {
+        const auto drawn = bsdf.sample(uniforms.template next<bsdf.dimensions>());
+        if (!(drawn.pdf > 0)) return 0.0f;
+        return bsdf.evaluate(drawn.value).reflected.y * (static_cast<float>(g(glm::dvec3{drawn.value})) / drawn.pdf);
+    };
+    return laws::unbiased(estimate, quadrature(material, wo, g), {100'000, {1e-4, 24}, 1e-4});
+}
+
+double reflected_of_white_sky(const auto& material, const glm::dvec3& wo) {
+    return quadrature(material, wo, [](const glm::dvec3&) { return 1.0; });
+}
+
+// Numbers of a material and two directions, lane by lane; the strategy drawn from, and what it scatters.
+template <class M>
+class LanesAndNumbers {
+    using Wide = typename M::template In<L>;
+    static constexpr std::size_t K = count<M>;
+
+  public:
+    explicit LanesAndNumbers(const M& typical) : typical_{numbers(typical)} {}
+
+    // Each lane has its own material: the typical one, each number scaled, or, if wrong, with numbers that are none.
+    void run(bool wrong) {
+        std::array<std::array<float, K>, L::size> of_lane;
+        std::array<glm::vec3, L::size> wo, wi;
+        for (std::size_t i = 0; i < L::size; ++i) {
+            of_lane[i] = typical_;
+            for (float& x : of_lane[i]) x *= 0.6f + 0.4f * uniform_(engine_);
+            wo[i] = unit(0.1f), wi[i] = unit(0.1f);
+            if (!wrong || i % 2 == 0) continue;
+            of_lane[i][engine_() % K] = garbage();
+            (i % 4 < 2 ? wo[i] : wi[i])[static_cast<int>(engine_() % 3)] = garbage();
+        }
+        compare(of_lane, wo, wi, wrong);
+    }
+
+  private:
+    void compare(const auto& of_lane, const auto& wo, const auto& wi, bool wrong) {
+        const CaughtAssertions caught;
+        const auto gather = [](const auto& number) { return L::of_lanes(number); };
+        std::array<L, K> gathered;
+        for (std::size_t k = 0; k < K; ++k) gathered[k] = gather([&](auto i) { return of_lane[i][k]; });
+        const auto directions = [&](const auto& w) {
+            return glm::vec<3, L>{gather([&](auto i) { return w[i].x; }), gather([&](auto i) { return w[i].y; }),
+                                  gather([&](auto i) { return w[i].z; })};
+        };
+        const auto bsdf = std::bit_cast<Wide>(gathered).strategy(directions(wo));
+        lumis::UniformsOf<std::remove_cvref_t<decltype(bsdf)>> u;
+        for (int k = 0; k < bsdf.dimensions; ++k) u[k] = gather([&](auto) { return uniform_(engine_); });
+        const auto drawn = bsdf.sample(u);
+        for (std::size_t i = 0; i < L::size; ++i) {
+            INFO("lane " << i);
+            const auto alone = std::bit_cast<M>(of_lane[i]).strategy(wo[i]);
+            const auto one = alone.sample(lumis::detail::lane_of(u, i));
+            if (!(wrong && i % 2 == 1)) {
+                REQUIRE(close(drawn.pdf[i], one.pdf));
+                if (one.pdf > 0) {
+                    const glm::vec3 off = lumis::detail::lane_of(drawn.value, i) - one.value;
+                    REQUIRE(glm::length(off) <= (fused ? 256 : 4) * epsilon);
+                }
+            }
+            require_same(bsdf, drawn.value, alone, i, wrong);
+            require_same(bsdf, directions(wi), alone, i, wrong);
+        }
+    }
+
+    void require_same(const auto& lanes, const glm::vec<3, L>& wi, const auto& alone, std::size_t i, bool wrong) {
+        const glm::vec3 w = lumis::detail::lane_of(wi, i);
+        if constexpr (M::is_delta) {
+            require_same(lumis::detail::lane_of(lanes.coefficient(wi), i), alone.coefficient(w), wrong && i % 2 == 1);
+        } else {
+            const auto scattered = lanes.evaluate(wi);
+            const auto one = alone.evaluate(w);
+            require_same(lumis::detail::lane_of(scattered.reflected, i), one.reflected, wrong && i % 2 == 1);
+            if (wrong && i % 2 == 1) return;
+            REQUIRE(close(scattered.pdf[i], one.pdf));
+            REQUIRE(close(one.pdf, alone.pdf(w)));
+            REQUIRE((one.pdf > 0 || one.reflected == glm::vec3{0}));
+        }
+    }
+    static void require_same(const glm::vec3& lane, const glm::vec3& one, bool wrong) {
+        for (int k = 0; k < 3; ++k) {
+            for (const float x : {lane[k], one[k]}) REQUIRE((x >= 0 && std::isfinite(x)));
+            REQUIRE((wrong || close(lane[k], one[k])));
+        }
+    }
+
+    // Up to rounding. Where products are fused, what is drawn at angles that magnify it differs by more.
+    static bool close(float a, float b) {
+        return a == b || std::abs(a - b) <= (fused ? 4096 : 16) * epsilon * std::abs(b);
+    }
+
+    float garbage() {
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        constexpr std::array all{
+            std::numeric_limits<float>::quiet_NaN(), infinity, -infinity, 0.0f, -1.0f, 1e30f, 1e-30f};
+        return all[engine_() % all.size()];
+    }
+    // Above the surface or, of glass, either; the cosine is not less than that given.
+    glm::vec3 unit(float cosine) {
+        const float versine = (1 - cosine) * uniform_(engine_), turn = uniform_(engine_);
+        const glm::vec3 w = lumis::direction_at(versine, turn);
+        return M::transmits && engine_() % 2 == 0 ? -w : w;
+    }
+
+    static constexpr float epsilon = std::numeric_limits<float>::epsilon();
+    std::array<float, K> typical_;
+    std::mt19937 engine_{1};
+    std::uniform_real_distribution<float> uniform_{0, 0.99f};
+};
+
+template <class M>
+void check_lanes(std::string_view name, const M& material) {
+    INFO(name);
+    LanesAndNumbers<M> comparison{material};
+    for (int i = 0; i < 300; ++i) comparison.run(i % 2 == 1);
+}
+
+}  // namespace
+
+TEST_CASE("eight materials in lanes scatter as each alone", "[materials]") {
+    for_each_rough([](auto name, const auto& material) { check_lanes(name, material); });
+    for_each_polished([](auto name, const auto& material) { check_lanes(name, material); });
+}
+
+TEST_CASE("samples of a material, by their density, add up to what it scatters", "[materials]") {
+    const auto g = [](const glm::dvec3& wi) { return 1 + 0.5 * wi.x - 0.3 * wi.y + 0.1 * wi.z; };
+    for_each_rough([&](auto name, const auto& material) {
+        for (const auto& wo : viewed_from(material)) {
+            const auto law = samples_agree(material, wo, g);
+            INFO(label(name, ", wo ", wo) << ": " << law);
+            CHECK(law.passed);
+        }
+    });
+}
+
+TEST_CASE("what enters by one direction and leaves by another does so the other way as well", "[materials]") {
+    for_each_rough([](auto name, const auto& material) {
+        using M = std::remove_cvref_t<decltype(material)>;
+        if constexpr (!requires { material.metal; }) {
+            // Radiance over the squared index is what is reciprocal.
+            const auto f = [wide = in_double(material)](const glm::dvec3& wo, const glm::dvec3& wi) {
+                const double n = M::transmits && wo.z < 0 ? double{glass_index} : 1;
+                return wide.strategy(wo).evaluate(wi).reflected / (std::abs(wi.z) * n * n);
+            };
+            const auto law = laws::is_reciprocal(f, {.both_sides = M::transmits, .pairs = 2000});
+            INFO(name << ": " << law);
+            CHECK(law.passed);
+        }
+    });
+}
+
+namespace {
+
+using Complex = std::complex<double>;
+
+// Unpolarised reflectance by the textbook (Born and Wolf 1999, section 1.5.2).
+double fresnel(double cosine, Complex eta) {
+    const Complex refracted = std::sqrt(1.0 - (1 - cosine * cosine) / (eta * eta));
+    const Complex s = (cosine - eta * refracted) / (cosine + eta * refracted);
+    const Complex p = (eta * cosine - refracted) / (eta * cosine + refracted);
+    return (std::norm(s) + std::norm(p)) / 2;
+}
+
+// D G2 / (4 wo.z wi.z) with Fresnel's reflectance 1 (Heitz 2014, eq. 85, 99), and the cosine at the normal half-way.
+struct Facets {
+    double brdf, cosine;
+
+    Facets(const glm::dvec3& wo, const glm::dvec3& wi, double alpha) {
+        const glm::dvec3 wm = glm::normalize(wo + wi);
+        const double square = (wm.x * wm.x + wm.y * wm.y) / (alpha * alpha) + wm.z * wm.z;
+        const glm::dvec2 both{alpha};
+        const double seen = 1 / (1 + white_furnace::lambda(wo, both) + white_furnace::lambda(wi, both));
+        brdf = seen / (std::numbers::pi * alpha * alpha * square * square * 4 * wo.z * wi.z);
+        cosine = glm::dot(wo, wm);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("metals and coats reflect as the textbook has it", "[materials]") {
+    constexpr double a = double{roughness}, pi = std::numbers::pi;
+    const glm::dvec3 albedo{0.07, 0.09, 0.13}, eta{silver.eta}, k{silver.k};
+    const Metal<double> metal{{eta, k}, a}, white{{glm::dvec3{0}, glm::dvec3{1}}, a};
+    const Coated<double> coated{albedo, a, 2};
+    std::mt19937 engine{1};
+    std::uniform_real_distribution<double> uniform;
+    const auto above = [&] {
+        const double versine = 0.99 * uniform(engine), turn = uniform(engine);
+        return lumis::direction_at(versine, turn);
+    };
+    for (int i = 0; i < 300; ++i) {
+        const glm::dvec3 wo = above(), wi = above();
+        const Facets facets{wo, wi, a};
+        const auto require_close = [&](const auto& material, double expected, int channel) {
+            const double value = material.strategy(wo).evaluate(wi).reflected[channel];
+            REQUIRE(std::abs(value / (expected * wi.z) - 1) <= 1e-10);
+        };
+        for (int c = 0; c < 3; ++c) {
+            require_close(metal, facets.brdf * fresnel(facets.cosine, {eta[c], k[c]}), c);
+            require_close(coated, facets.brdf * fresnel(facets.cosine, 2) + albedo[c] / pi, c);
+        }
+        require_close(white, facets.brdf, 0);
+        require_close(Diffuse<double>{albedo}, albedo.z / pi, 2);
+        const glm::dvec3 seen = Mirror<double>{{eta, k}}.strategy(wo).coefficient(wi);
+        REQUIRE(std::abs(seen.x / fresnel(wo.z, {eta.x, k.x}) - 1) <= 1e-10);
+    }
+}
+
+TEST_CASE("nothing passes through what does not transmit", "[materials]") {
+    const auto up = direction(0.6, 1), down = -direction(0.3, 2);
+    for_each_rough([&](auto name, const auto& material) {
+        if (material.transmits) return;
+        INFO(name);
+        for (const auto& [wo, wi] : {std::pair{up, down}, {down, up}, {down, down}}) {
+            CHECK(material.strategy(glm::vec3{wo}).evaluate(glm::vec3{wi}).reflected == glm::vec3{0});
+        }
+    });
+    const auto mirror = Mirror<float>{silver}.strategy(glm::vec3{down});
+    CHECK(mirror.sample({0.5f, 0.5f}).pdf == 0);
+    CHECK(mirror.coefficient(glm::vec3{up}) == glm::vec3{0});
+}
+
+TEST_CASE("the albedo that a denoiser sees is roughly that of a white sky", "[materials]") {
+    const glm::dvec3 wo = direction(0.95, 0.4);
+    for_each_rough([&](auto name, const auto& material) {
+        if (material.transmits) return;
+        INFO(name);
+        CHECK(std::abs(double{material.albedo_seen(glm::vec3{wo}).y} - reflected_of_white_sky(material, wo)) <= 0.15);
+    });
+    const SmoothGlass<float> glass{glass_index};
+    CHECK(glass.albedo_seen(glm::vec3{wo}) == glm::vec3{1});
+    const Mirror<float> mirror{silver};
+    CHECK(mirror.albedo_seen(glm::vec3{wo}) == mirror.strategy(glm::vec3{wo}).coefficient({}));
+}
+
+TEST_CASE("of a white sky metals lose what passes between their facets, and get it back", "[materials]") {
+    const Metal<float, Tint> white{{glm::vec3{1}}, roughness};
+    for (const glm::dvec3& wo : viewed_from(white)) {
+        INFO(label("wo ", wo));
+        const double lossy = white_furnace::albedo(wo, glm::dvec2{double{roughness}});
+        CHECK(std::abs(reflected_of_white_sky(white, wo) - lossy) <= 1e-4);
+        const double compensated = reflected_of_white_sky(Compensated<Metal<float, Tint>>{white}, wo);
+        CHECK(compensated >= 0.991);
+        CHECK(compensated <= 1);
+        // A coloured one gets back the share of what is lost that its reflectance is (Turquin 2019).
+        const Metal<float> metal{silver, roughness};
+        const double f0 = fresnel(1, {double{silver.eta.y}, double{silver.k.y}});
+        const double gain =
+            reflected_of_white_sky(Compensated<Metal<float>>{metal}, wo) / reflected_of_white_sky(metal, wo);
+        CHECK(std::abs(gain / (1 + f0 * (1 - lossy) / lossy) - 1) <= 0.009);
+    }
+}
+
+TEST_CASE("glass that absorbs nothing loses nothing but between its facets", "[materials]") {
+    for (const glm::dvec3& wo : viewed_from(RoughGlass<float>{})) {
+        INFO(label("wo ", wo));
+        // In a room whose radiance over the squared index is 1 everywhere.
+        const double n = double{glass_index}, here = wo.z < 0 ? n : 1;
+        const auto radiance = [&](const glm::dvec3& wi) { return (wi.z < 0 ? n * n : 1.0) / (here * here); };
+        const double rough = quadrature(RoughGlass<float>{roughness, glass_index}, wo, radiance);
+        const double nearly_smooth = quadrature(RoughGlass<float>{0.01f, glass_index}, wo, radiance);
+        CHECK(rough >= 0.75);
+        CHECK(rough <= 1);
+        CHECK(nearly_smooth >= 0.9995);
+        CHECK(nearly_smooth <= 1);
+
+        const auto smooth = SmoothGlass<double>{n}.strategy(wo);
+        for (const double u : {0.0, 0.02, 0.5, 1.0}) {
+            const auto drawn = smooth.sample({0.5, 0.5, u});
+            const double weight = smooth.coefficient(drawn.value).x * radiance(drawn.value) / drawn.pdf;
+            CHECK(std::abs(weight - 1) <= 1e-12);
+        }
+    }
+}
+
+TEST_CASE("a polished metal is the limit of a rough one", "[materials]") {
+    const glm::vec3 wo{direction(0.4, 1)}, mirrored{-wo.x, -wo.y, wo.z};
+    const auto rough = Metal<float>{silver, 0.001f}.strategy(wo);
+    const auto drawn = rough.sample({0.1f, 0.2f});
+    const glm::vec3 limit = Mirror<float>{silver}.strategy(wo).coefficient(mirrored);
+    for (int c = 0; c < 3; ++c)
+        CHECK(std::abs(rough.evaluate(drawn.value).reflected[c] / drawn.pdf - limit[c]) <= 1e-4f);
+}
