@@ -73,13 +73,12 @@ struct Compensated {
 
         [[nodiscard]] LUMIS_INLINE Scattering<Scalar> evaluate(const glm::vec<3, Scalar>& wi) const {
             const auto lossy = M::Bsdf::evaluate(wi);
-            return {lossy.reflected * gain, lossy.pdf};
+            return {finite_where(lossy.pdf > 0, lossy.reflected * gain), lossy.pdf};
         }
     };
     [[nodiscard]] LUMIS_INLINE Bsdf strategy(const glm::vec<3, Scalar>& wo) const {
         const auto lossy = metal.strategy(wo);
-        const auto gain = lumis::ggx_compensation(lossy.ggx(), wo, metal.surface.reflectance(Scalar(1.0f)));
-        return {lossy, finite_where(wo.z > 0, gain)};
+        return {lossy, lumis::ggx_compensation(lossy.ggx(), wo, metal.surface.reflectance(Scalar(1.0f)))};
     }
     [[nodiscard]] LUMIS_INLINE glm::vec<3, Scalar> albedo_seen(const glm::vec<3, Scalar>& wo) const {
         return metal.albedo_seen(wo);

@@ -38,11 +38,11 @@ struct Diffuse {
 
         [[nodiscard]] LUMIS_INLINE Scattering<R> evaluate(const glm::vec<3, R>& wi) const {
             const R pdf = this->pdf(wi);
-            return {albedo * pdf, pdf};
+            return {finite_where(pdf > 0, albedo * pdf), pdf};
         }
     };
     [[nodiscard]] LUMIS_INLINE Bsdf strategy(const glm::vec<3, R>& wo) const {
-        return {{}, finite_where(wo.z > 0, albedo)};
+        return {{}, lumis::real::select(wo.z > 0, albedo, glm::vec<3, R>{R(0.0f)})};
     }
     [[nodiscard]] LUMIS_INLINE glm::vec<3, R> albedo_seen(const glm::vec<3, R>& /*wo*/) const { return albedo; }
 };
