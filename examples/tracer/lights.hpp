@@ -148,6 +148,7 @@ class FewLights {
 template <class... Groups>
 class Lights {
   public:
+    static constexpr std::array<std::size_t, sizeof...(Groups)> counts{Groups::samples...};  // of samples at a point
     static constexpr std::size_t samples = (Groups::samples + ...);
 
     Lights() = default;

@@ -2,6 +2,7 @@
 // goes on, and where it meets a light it is the BSDF's sample of direct light.
 #pragma once
 
+#include "direct_rounds.hpp"
 #include "geometry.hpp"
 #include "lights.hpp"
 #include "material_table.hpp"
@@ -43,8 +44,12 @@ class PathTracer {
     PathTracer(const S& scene, Integrator integrator, int bounces, PixelUniforms<R>& uniforms)
         : scene_{scene}, integrator_{integrator}, bounces_{bounces}, uniforms_{uniforms} {}
 
-    // The radiance that arrives along a ray, in the lanes asked for.
-    [[nodiscard]] Found<R> along(Ray<R> ray, Mask<R> alive) {
+    using Rounds = DirectRounds<R, S::LightTable::counts.size()>;
+
+    // The radiance that arrives along a ray, in the lanes asked for. With optimal weights, direct light at the first surface is
+    // left out of it and added to the pixel's sums.
+    [[nodiscard]] Found<R> along(Ray<R> ray, const Mask<R>& asked, typename Rounds::Sums& sums) {
+        Mask<R> alive = asked, asks_first(false);
         Hit<R> hit = scene_.geometry().closest(ray, alive);
         Surfaces on = surfaces_of(hit, alive);
         Found<R> found{emitted(ray, on, alive), black, hit.normal};
@@ -63,12 +68,15 @@ class PathTracer {
                 goes_on = alive && !asks;
             }
 
+            Rounds* const rounds = integrator_ == Integrator::Optimal && bounce == 1 ? &rounds_ : nullptr;
+            if (bounce == 1) asks_first = asks;
+
             // Directions of both: towards lights, and by the BSDF.
             Draws draws{};
             if (asks_lights(integrator_)) draw_from(lights, asks, draws);
             const Scattered next = scattered(on, vertex, alive, goes_on, asks, draws);
             if (bounce == 1) found.albedo = next.albedo;
-            if (any(asks)) found.radiance += throughput * direct_light(draws, vertex, asks);
+            if (any(asks)) found.radiance += throughput * direct_light(draws, vertex, asks, rounds);
 
             // The path goes on.
             throughput *= next.factor;
@@ -84,8 +92,9 @@ class PathTracer {
             ray = {hit.position, lumis::real::select(alive, next.direction, up)};
             hit = scene_.geometry().closest(ray, alive);
             on = surfaces_of(hit, alive);
-            found.radiance += throughput * emitted(ray, hit, on, alive, lights, next.pdf, is_found_by_both);
+            found.radiance += throughput * emitted(ray, hit, on, alive, lights, next, is_found_by_both, rounds);
         }
+        if (integrator_ == Integrator::Optimal) rounds_.move_to(sums, asked, asks_first, S::LightTable::counts);
         return found;
     }
 
@@ -147,6 +156,8 @@ class PathTracer {
         LightDraw<R> light;
         R own;  // its effective density
         Scattering<R> scattering;
+        std::size_t group;
+        float count;  // of the group's draws
     };
     using Draws = std::array<Draw, S::LightTable::samples>;
 
@@ -160,7 +171,11 @@ class PathTracer {
                 if (!any(asks)) continue;
                 u.x = (u.x + static_cast<float>(i)) * (1.0f / static_cast<float>(count));
                 const LightDraw<R> light = std::get<g>(lights).sample(u);
-                draws[at++] = {light, effective(static_cast<float>(count) * light.pdf), {black, R(0.0f)}};
+                draws[at++] = {light,
+                               effective(static_cast<float>(count) * light.pdf),
+                               {black, R(0.0f)},
+                               g,
+                               static_cast<float>(count)};
             }
         });
     }
@@ -221,18 +236,26 @@ class PathTracer {
     }
 
     // What the material scatters of the draws that nothing hides, weighted.
-    [[nodiscard]] LUMIS_INLINE Vector<R> direct_light(const Draws& draws, const Vertex& vertex, const Mask<R>& asks) {
+    [[nodiscard]] LUMIS_INLINE Vector<R> direct_light(const Draws& draws, const Vertex& vertex, const Mask<R>& asks,
+                                                      Rounds* rounds) {
         Vector<R> sum = black;
         for (const Draw& draw : draws) {
-            Mask<R> arrives = asks && draw.light.pdf > 0.0f;
+            const Mask<R> is_drawn = asks && draw.light.pdf > 0.0f;
             const R weight = weight_of_light_sample(integrator_, draw.own, effective(draw.scattering.pdf));
-            const R factor = lumis::real::quotient_where(arrives, weight, draw.own);
+            const R factor = lumis::real::quotient_where(is_drawn, weight, draw.own);
             const Vector<R> light = draw.scattering.reflected * draw.light.radiance * factor;
-            arrives = arrives && light.x + light.y + light.z > 0.0f;
-            if (!any(arrives)) continue;
-            const Ray<R> shadow{vertex.position, lumis::real::select(arrives, draw.light.direction, up)};
-            arrives = arrives && !scene_.geometry().is_occluded(shadow, draw.light.distance, arrives);
-            sum += lumis::real::select(arrives, light, black);
+            Mask<R> arrives = is_drawn && light.x + light.y + light.z > 0.0f;
+            if (rounds != nullptr) arrives = arrives || (is_drawn && draw.scattering.pdf > 0.0f);
+            if (any(arrives)) {
+                const Ray<R> shadow{vertex.position, lumis::real::select(arrives, draw.light.direction, up)};
+                arrives = arrives && !scene_.geometry().is_occluded(shadow, draw.light.distance, arrives);
+            }
+            if (rounds != nullptr) {
+                rounds->add_light_sample(asks, arrives,
+                                         {draw.group, draw.count, light, draw.scattering.pdf, draw.light.pdf});
+            } else {
+                sum += lumis::real::select(arrives, light, black);
+            }
         }
         return sum;
     }
@@ -254,8 +277,8 @@ class PathTracer {
 
     // Light that the BSDF's ray meets, weighted: light sampling, as seen from the ray's origin, could have found it too.
     [[nodiscard]] LUMIS_INLINE Vector<R> emitted(const Ray<R>& ray, const Hit<R>& hit, const Surfaces& on,
-                                                 const Mask<R>& alive, const auto& lights, const R& bsdf_pdf,
-                                                 const Mask<R>& is_found_by_both) const {
+                                                 const Mask<R>& alive, const auto& lights, const Scattered& drawn,
+                                                 const Mask<R>& is_found_by_both, Rounds* rounds) const {
         Vector<R> result = black;
         scene_.lights().for_each([&](const auto& group, auto g) {
             const Mask<R> is_met = meets<g>(group, on, alive);
@@ -270,10 +293,18 @@ class PathTracer {
                 radiance = group.template radiance<R>(light);
                 light_pdf = std::get<g>(lights).pdf_from_hit(light, hit.distance, glm::dot(hit.normal, ray.direction));
             }
-            const R other = effective(static_cast<float>(group.samples) * light_pdf);
-            const R weight = weight_of_bsdf_sample(integrator_, effective(bsdf_pdf), other);
-            result =
-                lumis::real::select(is_met, radiance * lumis::real::select(is_found_by_both, weight, R(1.0f)), result);
+            constexpr auto count = static_cast<float>(std::remove_cvref_t<decltype(group)>::samples);
+            const R own = effective(drawn.pdf), other = effective(count * light_pdf);
+            const R weight =
+                lumis::real::select(is_found_by_both, weight_of_bsdf_sample(integrator_, own, other), R(1.0f));
+            Vector<R> light = radiance * weight;
+            if (rounds != nullptr) {
+                // The balance heuristic's weight over the BSDF's density is one over the sum of both.
+                const Mask<R> is_round = is_met && is_found_by_both;
+                rounds->add_bsdf_sample(is_round, {g, count, drawn.factor * light, drawn.pdf, light_pdf});
+                light = lumis::real::select(is_round, black, light);
+            }
+            result = lumis::real::select(is_met, light, result);
         });
         return result;
     }
@@ -304,6 +335,7 @@ class PathTracer {
     Integrator integrator_;
     int bounces_;
     PixelUniforms<R>& uniforms_;
+    Rounds rounds_;
 };
 
 }  // namespace tracer

@@ -36,10 +36,12 @@ class SceneRenderer final : public Renderer {
     double add_pass(Film& film, std::string_view integrator, const RenderOptions& options, int samples,
                     std::uint64_t seed, std::uint64_t pass) const override {
         const Integrator chosen = value_named(integrators, integrator);
+        // Optimal weights are learnt from samples that are independent of each other.
+        const Sampler sampler = chosen == Integrator::Optimal ? Sampler::Random : options.sampler;
         const auto add_pixels = [&](const oneapi::tbb::blocked_range<std::size_t>& pixels, double seconds) {
             const ThreadClock clock;
             for (std::size_t i = pixels.begin(); i < pixels.end(); ++i) {
-                PixelUniforms<R> uniforms{options.sampler, seed, i, pass};
+                PixelUniforms<R> uniforms{sampler, seed, i, pass};
                 add_pixel(film.pixels[i], i, chosen, options, samples, uniforms);
             }
             return seconds + clock.seconds();
@@ -55,6 +57,7 @@ class SceneRenderer final : public Renderer {
                    row = static_cast<float>(index / static_cast<std::size_t>(width_));
         PathTracer<S, R> paths{scene_, integrator, options.bounces, uniforms};
         glm::dvec3 sum{0};
+        typename PathTracer<S, R>::Rounds::Sums direct;  // by optimal weights
         const int width = static_cast<int>(lanes<R>);
         for (int sample = 0; sample < samples; sample += width) {
             uniforms.start(static_cast<std::uint32_t>(sample));
@@ -62,13 +65,14 @@ class SceneRenderer final : public Renderer {
             const R x = column + 0.5f + filter_offset(options.filter, u.x),
                     y = row + 0.5f + filter_offset(options.filter, u.y);
             const Mask<R> asked = mask_of<R>([&](auto i) { return sample + static_cast<int>(i) < samples; });
-            const Found<R> found = paths.along(view_.template ray<R>(x, y), asked);
+            const Found<R> found = paths.along(view_.template ray<R>(x, y), asked, direct);
             for (std::size_t i = 0; i < lanes<R> && sample + static_cast<int>(i) < samples; ++i) {
                 sum += glm::dvec3{lane_of(found.radiance, i)};
                 pixel.albedo += lane_of(found.albedo, i);
                 pixel.normal += lane_of(found.normal, i);
             }
         }
+        sum += static_cast<double>(samples) * glm::dvec3{direct.estimate()};
         pixel.add_pass(sum, static_cast<std::uint32_t>(samples));
     }
 

@@ -10,13 +10,16 @@
 namespace tracer {
 
 // bsdf and light: one technique alone. one-sample: one of the two at random, by the balance heuristic. The others take both.
-enum class Integrator { Bsdf, Light, Balance, Power, OneSample, Average };
-inline constexpr std::array<Named<Integrator>, 6> integrators{{{"bsdf", Integrator::Bsdf},
+// optimal: direct light at the first surface with optimal weights, learnt from the pixel's samples of a pass, which are random
+// numbers then; further on balance.
+enum class Integrator { Bsdf, Light, Balance, Power, OneSample, Average, Optimal };
+inline constexpr std::array<Named<Integrator>, 7> integrators{{{"bsdf", Integrator::Bsdf},
                                                                {"light", Integrator::Light},
                                                                {"balance", Integrator::Balance},
                                                                {"power", Integrator::Power},
                                                                {"one-sample", Integrator::OneSample},
-                                                               {"average", Integrator::Average}}};
+                                                               {"average", Integrator::Average},
+                                                               {"optimal", Integrator::Optimal}}};
 
 [[nodiscard]] constexpr bool asks_lights(Integrator integrator) {
     return integrator != Integrator::Bsdf;
