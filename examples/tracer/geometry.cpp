@@ -1,22 +1,17 @@
 #include "geometry.hpp"
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
+#include "embree.hpp"
+#include "spheres.hpp"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include <array>
-#include <bit>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <span>
-#include <type_traits>
 
 namespace tracer {
 
@@ -25,26 +20,6 @@ namespace {
 template <class T>
 std::span<T> new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t count) {
     return {static_cast<T*>(rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), count)), count};
-}
-
-// Embree's rays, alone or eight at once: a field is a number, or an array of eight.
-template <lumis::Real R>
-constexpr bool is_single = std::is_same_v<R, float>;
-template <lumis::Real R>
-using EmbreeRay = std::conditional_t<is_single<R>, RTCRay, RTCRay8>;
-template <lumis::Real R>
-using EmbreeRayHit = std::conditional_t<is_single<R>, RTCRayHit, RTCRayHit8>;
-
-void put(const auto& x, auto& field) {
-    static_assert(sizeof x == sizeof field);
-    std::memcpy(&field, &x, sizeof x);
-}
-template <class X>
-X taken(const auto& field) {
-    static_assert(sizeof(X) == sizeof field);
-    X x;
-    std::memcpy(static_cast<void*>(&x), &field, sizeof x);
-    return x;
 }
 
 // A ray leaves a surface: what it meets nearer than its origin's own rounding is that surface.
@@ -68,53 +43,6 @@ void fill(EmbreeRay<R>& to, const Ray<R>& ray, const R& farthest) {
     put(farthest, to.tfar);
     std::memset(&to.mask, 0xff, sizeof to.mask);
     std::memset(&to.flags, 0, sizeof to.flags);
-}
-
-// What Embree asks and is told of each lane.
-template <lumis::Real R>
-std::array<int, lanes<R>> valid(const Mask<R>& asked) {
-    std::array<int, lanes<R>> result;
-    for (std::size_t i = 0; i < lanes<R>; ++i) result[i] = lane(asked, i) ? -1 : 0;
-    return result;
-}
-
-void intersect(RTCScene scene, RTCRayHit& query, const std::array<int, 1>& asked) {
-    if (asked[0] == 0) return;
-#if RTC_VERSION_MAJOR >= 4
-    rtcIntersect1(scene, &query, nullptr);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(scene, &context, &query);
-#endif
-}
-void intersect(RTCScene scene, RTCRayHit8& query, const std::array<int, 8>& asked) {
-#if RTC_VERSION_MAJOR >= 4
-    rtcIntersect8(asked.data(), scene, &query, nullptr);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect8(asked.data(), scene, &context, &query);
-#endif
-}
-void occlude(RTCScene scene, RTCRay& ray, const std::array<int, 1>& asked) {
-    if (asked[0] == 0) return;
-#if RTC_VERSION_MAJOR >= 4
-    rtcOccluded1(scene, &ray, nullptr);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(scene, &context, &ray);
-#endif
-}
-void occlude(RTCScene scene, RTCRay8& ray, const std::array<int, 8>& asked) {
-#if RTC_VERSION_MAJOR >= 4
-    rtcOccluded8(asked.data(), scene, &ray, nullptr);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded8(asked.data(), scene, &context, &ray);
-#endif
 }
 
 }  // namespace
@@ -145,10 +73,9 @@ void Geometry::add(std::span<const lumis::Triangle<float>> shapes, std::span<con
 }
 
 void Geometry::add(std::span<const lumis::Sphere<float>> shapes, std::span<const Surface> surfaces) {
-    const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
-    const auto vertices = new_buffer<glm::vec4>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, shapes.size());
-    for (std::size_t i = 0; i < shapes.size(); ++i) vertices[i] = {shapes[i].center, shapes[i].radius};
-    attach(geometry, surfaces);
+    const auto& kept =
+        spheres_.emplace_back(std::make_shared<const std::vector<lumis::Sphere<float>>>(shapes.begin(), shapes.end()));
+    attach(new_spheres(device_.get(), *kept), surfaces);
 }
 
 void Geometry::attach(RTCGeometryTy* geometry, std::span<const Surface> surfaces) {
@@ -164,17 +91,16 @@ void Geometry::commit() {
 }
 
 template <lumis::Real R>
-Hit<R> Geometry::closest(const Ray<R>& ray, const Mask<R>& asked) const {
-    alignas(32) const auto lanes_asked = valid<R>(asked);
+Hit<R> Geometry::closest(const Ray<R>& ray, const Mask<R>& asked, Rays rays) const {
     EmbreeRayHit<R> query;
     fill(query.ray, ray, R(std::numeric_limits<float>::infinity()));
     std::memset(&query.hit.geomID, 0xff, sizeof query.hit.geomID);  // RTC_INVALID_GEOMETRY_ID
     std::memset(&query.hit.Ng_x, 0, 3 * sizeof(R));
-    intersect(scene_.get(), query, lanes_asked);
+    ask<R>(scene_.get(), asked, rays == Rays::Alike, query);
 
     Hit<R> hit;
     const auto geometry = taken<Indices<R>>(query.hit.geomID), shape = taken<Indices<R>>(query.hit.primID);
-    hit.is_met = mask_of<R>([&](auto i) { return geometry[i] != RTC_INVALID_GEOMETRY_ID; });
+    hit.is_met = !are<R>(geometry, RTC_INVALID_GEOMETRY_ID);
     for (std::size_t i = 0; i < lanes<R>; ++i) {
         hit.surface[i] = lane(hit.is_met, i) ? first_surface_[geometry[i]] + shape[i] : 0;
     }
@@ -189,16 +115,15 @@ Hit<R> Geometry::closest(const Ray<R>& ray, const Mask<R>& asked) const {
 
 template <lumis::Real R>
 Mask<R> Geometry::is_occluded(const Ray<R>& ray, const R& distance, const Mask<R>& asked) const {
-    alignas(32) const auto lanes_asked = valid<R>(asked);
     EmbreeRay<R> query;
     fill(query, ray, R(distance * (1 - 1e-4f)));
-    occlude(scene_.get(), query, lanes_asked);
+    ask<R>(scene_.get(), asked, false, query);
     const Mask<R> is_met = taken<R>(query.tfar) < 0.0f;  // Embree's sign for yes
     return asked && (is_met || distance <= nearest(ray.origin));
 }
 
-template Hit<float> Geometry::closest(const Ray<float>&, const Mask<float>&) const;
-template Hit<Packet> Geometry::closest(const Ray<Packet>&, const Mask<Packet>&) const;
+template Hit<float> Geometry::closest(const Ray<float>&, const Mask<float>&, Rays) const;
+template Hit<Packet> Geometry::closest(const Ray<Packet>&, const Mask<Packet>&, Rays) const;
 template Mask<float> Geometry::is_occluded(const Ray<float>&, const float&, const Mask<float>&) const;
 template Mask<Packet> Geometry::is_occluded(const Ray<Packet>&, const Packet&, const Mask<Packet>&) const;
 

@@ -42,6 +42,9 @@ struct Hit {
     Indices<R> surface;  // what Geometry::surface takes
 };
 
+// Rays of a packet that go nearly the same way, as a pixel's do, take less time if that is said.
+enum class Rays { Any, Alike };
+
 class Geometry {
   public:
     Geometry();
@@ -60,7 +63,7 @@ class Geometry {
 
     // The first surface ahead, in the lanes asked for.
     template <lumis::Real R>
-    [[nodiscard]] Hit<R> closest(const Ray<R>& ray, const Mask<R>& asked) const;
+    [[nodiscard]] Hit<R> closest(const Ray<R>& ray, const Mask<R>& asked, Rays rays = Rays::Any) const;
 
     // Whether something stands nearer than the distance, in the lanes asked for; or whether that point is so near that
     // closest() would not meet it.
@@ -74,6 +77,8 @@ class Geometry {
 
     std::shared_ptr<RTCDeviceTy> device_;
     std::shared_ptr<RTCSceneTy> scene_;
+    std::vector<std::shared_ptr<const std::vector<lumis::Sphere<float>>>>
+        spheres_;  // as long as the scene that they are in
     std::vector<Surface> surfaces_;
     std::vector<std::uint32_t> first_surface_;  // of each of Embree's geometries
 };

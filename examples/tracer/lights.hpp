@@ -119,7 +119,7 @@ class FewLights {
         [[nodiscard]] R pdf_from_hit(const Indices<R>& light, const R& distance, const R& cosine) const {
             R share(0.0f);
             for (std::size_t i = 0; i < lights_.extents_.size(); ++i) {
-                const Mask<R> is_met = mask_of<R>([&](auto k) { return light[k] == i; });
+                const Mask<R> is_met = are<R>(light, static_cast<std::uint32_t>(i));
                 share = lumis::real::select(is_met, i == 0 ? up_to_[0] : up_to_[i] - up_to_[i - 1], share);
             }
             const Emitter<Shape<R>> emitter = gather<Emitter<Shape<R>>, R>(lights_.emitters_, light);

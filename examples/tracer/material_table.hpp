@@ -50,7 +50,7 @@ class Materials {
     LUMIS_INLINE void visit(const Indices<R>& kinds, const Indices<R>& entries, const Mask<R>& asked,
                             auto visit) const {
         const auto visit_kind = [&]<std::size_t K, class Kind>() {
-            const Mask<R> mask = asked && mask_of<R>([&](auto i) { return kinds[i] == K; });
+            const Mask<R> mask = asked && are<R>(kinds, K);
             if (!any(mask)) return;
             visit(gather<typename Kind::template In<R>, R>(std::get<K>(tables_), filled<R>(entries, mask)), mask);
         };
@@ -66,8 +66,10 @@ class Materials {
         if constexpr (!(Kinds::is_delta || ...)) {
             return Mask<R>(false);
         } else {
-            constexpr std::array<bool, sizeof...(Kinds)> is_delta{Kinds::is_delta...};
-            return mask_of<R>([&](auto i) { return kinds[i] < is_delta.size() && is_delta[kinds[i]]; });
+            Mask<R> result(false);
+            std::uint32_t kind = 0;
+            ((result = Kinds::is_delta ? result || are<R>(kinds, kind) : result, ++kind), ...);
+            return result;
         }
     }
 

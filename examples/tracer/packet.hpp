@@ -1,4 +1,4 @@
-// Samples of a pixel are traced eight at a time, one in each lane. The tracer's kernels are written for a lumis::Real R: a
+// Samples of a pixel are traced in packets, one in each lane: eight at a time, or sixteen where the machine has vectors for them. The tracer's kernels are written for a lumis::Real R: a
 // Packet, or a float for a single sample. What lanes need beyond arithmetic is here: their masks, and tables' entries.
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace tracer {
 
-using Packet = lumis::Lanes<float, 8>;
+using Packet = lumis::Lanes<float, LUMIS_VECTOR_BYTES >= 64 ? 16 : 8>;
 
 template <lumis::Real R>
 inline constexpr std::size_t lanes = [] {
@@ -74,6 +74,18 @@ template <lumis::Real R>
     return of_lanes<R>([&](auto i) { return f(i) ? 1.0f : 0.0f; }) > 0.0f;
 }
 
+// The lanes whose entry is `entry`.
+template <lumis::Real R>
+[[nodiscard]] LUMIS_INLINE inline Mask<R> are(const Indices<R>& entries, std::uint32_t entry) {
+    if constexpr (std::floating_point<R>) {
+        return entries[0] == entry;
+    } else {
+        typename Mask<R>::Vector numbers;
+        std::memcpy(&numbers, entries.data(), sizeof numbers);
+        return Mask<R>{numbers == static_cast<std::int32_t>(entry)};
+    }
+}
+
 // Entries where the mask holds; in other lanes one of those.
 template <lumis::Real R>
 [[nodiscard]] LUMIS_INLINE inline Indices<R> filled(const Indices<R>& entries, const Mask<R>& mask) {
@@ -94,8 +106,7 @@ template <class To, lumis::Real R, class From>
         constexpr std::size_t members = sizeof(From) / sizeof(float);
         static_assert(sizeof(To) == members * sizeof(R), "a structure of numbers alone");
         std::array<R, members> gathered;
-        bool is_shared = true;
-        for (const std::uint32_t one : at) is_shared = is_shared && one == at[0];
+        const bool is_shared = are<R>(at, at[0]).all();
         const auto number = [&](std::size_t lane, std::size_t member) {
             float x;
             std::memcpy(&x, reinterpret_cast<const char*>(&table[at[lane]]) + member * sizeof(float), sizeof x);

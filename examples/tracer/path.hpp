@@ -50,7 +50,7 @@ class PathTracer {
     // left out of it and added to the pixel's sums.
     [[nodiscard]] Found<R> along(Ray<R> ray, const Mask<R>& asked, typename Rounds::Sums& sums) {
         Mask<R> alive = asked, asks_first(false);
-        Hit<R> hit = scene_.geometry().closest(ray, alive);
+        Hit<R> hit = scene_.geometry().closest(ray, alive, Rays::Alike);
         Surfaces on = surfaces_of(hit, alive);
         Found<R> found{emitted(ray, on, alive), black, hit.normal};
         Vector<R> throughput{R(1.0f)};
@@ -117,7 +117,7 @@ class PathTracer {
             on.group[i] = is_met ? surface.group : background;
             on.light[i] = surface.light;
         }
-        on.reflects = mask_of<R>([&](auto i) { return on.kind[i] != Surface::none; });
+        on.reflects = !are<R>(on.kind, Surface::none);
         on.is_polished = scene_.materials().template are_delta<R>(on.kind);
         return on;
     }
@@ -312,7 +312,7 @@ class PathTracer {
     template <std::size_t G, class Group>
     [[nodiscard]] LUMIS_INLINE static Mask<R> meets(const Group& /*group*/, const Surfaces& on, const Mask<R>& alive) {
         constexpr std::uint32_t met = Group::is_background ? background : static_cast<std::uint32_t>(G);
-        return alive && mask_of<R>([&](auto i) { return on.group[i] == met; });
+        return alive && are<R>(on.group, met);
     }
 
     // Russian roulette: a path that goes on stands for those that end.
