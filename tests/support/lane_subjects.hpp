@@ -242,6 +242,37 @@ struct OfBoundary {
     }
 };
 
+// A diffuse lobe and a rough mirror: made of wo, the roughness along x and y, and the mirror's probability.
+struct MixtureOfLobes {
+    using Mirror = OfDirectionAndRoughness<MakeGgxReflection>;
+    static constexpr std::size_t parameters = Mirror::parameters + 1;
+
+    template <class R>
+    static auto make(const std::array<R, 6>& p) {
+        return lumis::Mixture{lumis::choose(1 - p[5], lumis::CosineHemisphere<R>{}),
+                              lumis::choose(p[5], Mirror::make(std::array<R, 5>{p[0], p[1], p[2], p[3], p[4]}))};
+    }
+    template <class T>
+    static std::array<T, 6> with_probability(const std::array<T, 5>& p, T probability) {
+        return {p[0], p[1], p[2], p[3], p[4], probability};
+    }
+    template <class T>
+    static std::array<T, 6> random(std::mt19937& engine) {
+        std::uniform_real_distribution<T> probability;
+        const auto mirror = Mirror::random<T>(engine);
+        return with_probability<T>(mirror, probability(engine));
+    }
+    template <class T>
+    static std::vector<std::array<T, 6>> degenerate() {
+        std::vector<std::array<T, 6>> result;
+        for (const auto& mirror : Mirror::degenerate<T>()) result.push_back(with_probability<T>(mirror, T(0.5)));
+        for (const T probability : {T(0), T(1), T(-1), T(2), T(1e-30), not_a_number<T>}) {
+            result.push_back(with_probability<T>({T(0.6), 0, T(0.8), T(0.3), T(0.2)}, probability));
+        }
+        return result;
+    }
+};
+
 struct MakeGgxDielectric {
     template <class R>
     auto operator()(const lumis::Direction<R>& wo, const glm::vec<2, R>& alpha, const R& eta) const {
@@ -359,7 +390,7 @@ using WithOwnParameters =
                OfDirectionAndRoughness<MakeGgxNdf>, OfDirectionAndRoughness<MakeGgxVndf>,
                OfDirectionAndRoughness<MakeGgxReflection>, OfDirectionAndRoughness<MakeGgxBoundedReflection>,
                OfDirectionAndRoughness<MakeReflectedNdf>, OfDirectionAndRoughness<MakePerfectReflection>,
-               OfBoundary<MakeGgxDielectric>, OfBoundary<MakeSmoothDielectric>, Light<MakeTriangle, 12>,
+               MixtureOfLobes, OfBoundary<MakeGgxDielectric>, OfBoundary<MakeSmoothDielectric>, Light<MakeTriangle, 12>,
                Light<MakeParallelogram, 12>, Light<MakeDisk, 10>, Light<MakeSphere<lumis::ByArea>, 7>,
                Light<MakeSphere<lumis::BySolidAngle>, 7>>;
 
