@@ -35,7 +35,7 @@ struct GgxLoss {
 // from 3.7 % too small to 4.5 % too large where one is twice the other, and from 6 % to 7.5 % where it is up to a hundred times. A
 // roughness beyond 1 counts as 1, which reflects more. 0 from below.
 template <Real T, RealOf<T> R = T>
-[[nodiscard]] LUMIS_HD R ggx_albedo(const Ggx<T>& ggx, const Direction<R>& wo) noexcept {
+[[nodiscard]] LUMIS_INLINE inline R ggx_albedo(const Ggx<T>& ggx, const Direction<R>& wo) noexcept {
     using Number = scalar_of<T>;
     using Loss = detail::GgxLoss;
     const glm::vec<2, T> alpha = ggx.alpha();
@@ -70,8 +70,8 @@ template <Real T, RealOf<T> R = T>
 // lights ask with the one they leave along as well.
 template <Real T, RealOf<T> R, class Reflectance>
     requires(!std::is_arithmetic_v<Reflectance>)
-[[nodiscard]] LUMIS_HD Reflectance ggx_compensation(const Ggx<T>& ggx, const Direction<R>& wo,
-                                                    const Reflectance& f0) noexcept {
+[[nodiscard]] LUMIS_INLINE inline Reflectance ggx_compensation(const Ggx<T>& ggx, const Direction<R>& wo,
+                                                               const Reflectance& f0) noexcept {
     const R albedo = ggx_albedo<T, R>(ggx, wo);
     return Reflectance(scalar_of<T>(1)) + f0 * real::quotient_where(albedo > 0, R(1 - albedo), albedo);
 }

@@ -81,7 +81,7 @@ class Reflected {
   private:
     // A drawn normal, or 0 if none was drawn. It is of any length where the strategy can spare normalising it.
     template <Real R>
-    [[nodiscard]] LUMIS_HD Direction<R> normal(glm::vec<dimensions, R> u) const noexcept {
+    [[nodiscard]] LUMIS_INLINE Direction<R> normal(glm::vec<dimensions, R> u) const noexcept {
         if constexpr (requires { normals_.along_normal(u); }) {
             return normals_.along_normal(u);
         } else {
