@@ -1,10 +1,13 @@
 // Glass, rough and polished, from both sides. A path comes from the camera, and so carries radiance. See materials.hpp.
 #pragma once
 
+#include "packet.hpp"
 #include "scattering.hpp"
 #include <lumis/lumis.hpp>
 
 #include <glm/vec3.hpp>
+
+#include <cmath>
 
 namespace tracer {
 
@@ -49,6 +52,33 @@ struct SmoothGlass {
     [[nodiscard]] LUMIS_INLINE Bsdf strategy(const glm::vec<3, R>& wo) const { return {{wo, index}}; }
     [[nodiscard]] LUMIS_INLINE glm::vec<3, R> albedo_seen(const glm::vec<3, R>& /*wo*/) const {
         return glm::vec<3, R>{R(1.0f)};
+    }
+};
+
+// Glass that absorbs light on its way inside, by the law of Beer and Lambert: a path that arrives at it from below, wo.z < 0,
+// has come that way.
+template <class M>
+struct Absorbing {
+    M glass;
+    glm::vec<3, typename M::Scalar> absorption;  // per unit of length
+
+    using Scalar = typename M::Scalar;
+    template <lumis::Real S>
+    using In = Absorbing<typename M::template In<S>>;
+    static constexpr bool is_delta = M::is_delta, transmits = true;
+
+    [[nodiscard]] LUMIS_INLINE auto strategy(const glm::vec<3, Scalar>& wo) const { return glass.strategy(wo); }
+    [[nodiscard]] LUMIS_INLINE glm::vec<3, Scalar> albedo_seen(const glm::vec<3, Scalar>& wo) const {
+        return glass.albedo_seen(wo);
+    }
+    // The share of light that is left after a way inside.
+    [[nodiscard]] glm::vec<3, Scalar> left_after(Scalar distance) const {
+        const auto left = [&](Scalar per_length) {
+            const Scalar depth = per_length * distance;
+            return of_lanes<Scalar>([&](auto i) { return std::exp(-lane(depth, i)); });
+        };
+        const glm::vec<3, Scalar> color{left(absorption.x), left(absorption.y), left(absorption.z)};
+        return finite_where(distance >= 0.0f, color);
     }
 };
 
