@@ -78,7 +78,7 @@ template <Real T, RealOf<T> R, class Reflectance>
 // The same of a number of any type, 1 for a white metal: the factor is none of that type.
 template <Real T, RealOf<T> R, class Number>
     requires std::is_arithmetic_v<Number>
-[[nodiscard]] LUMIS_HD R ggx_compensation(const Ggx<T>& ggx, const Direction<R>& wo, Number f0) noexcept {
+[[nodiscard]] LUMIS_INLINE inline R ggx_compensation(const Ggx<T>& ggx, const Direction<R>& wo, Number f0) noexcept {
     const R albedo = ggx_albedo<T, R>(ggx, wo);
     const scalar_of<T> reflectance = static_cast<scalar_of<T>>(f0);
     return 1 + reflectance * real::quotient_where(albedo > 0, R(1 - albedo), albedo);
