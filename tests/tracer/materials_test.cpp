@@ -1,17 +1,15 @@
 // Materials: lanes of them are single ones, and each scatters what it should. The answers are quadratures in double.
 #include "assertions.hpp"
 #include "catch.hpp"
+#include "material_lanes.hpp"
 #include "material_subjects.hpp"
 #include "packet.hpp"
 #include "white_furnace.hpp"
 #include <lumis/testing/materials.hpp>
 #include <lumis/testing/unbiased.hpp>
 
-#include <array>
-#include <bit>
 #include <cmath>
 #include <complex>
-#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -22,8 +20,6 @@ namespace {
 
 namespace laws = lumis::testing;
 using namespace subjects;
-
-using L = Packet;
 
 // The mean of scattered light times g(wi) over its density, for samples of the strategy, is the quadrature of it.
 template <class M>
@@ -41,100 +37,6 @@ laws::UnbiasedResult samples_agree(const M& material, const glm::dvec3& wo, cons
 double reflected_of_white_sky(const auto& material, const glm::dvec3& wo) {
     return quadrature(material, wo, [](const glm::dvec3&) { return 1.0; });
 }
-
-// Eight materials, gathered as a packet of paths gathers them, against each of them alone.
-template <class M>
-class LanesAndNumbers {
-  public:
-    explicit LanesAndNumbers(const M& typical) : typical_{numbers(typical)} {}
-
-    // Each lane has its own material, the typical one with each number scaled. Where some are broken, every other lane has
-    // a number that is none, in its material or a direction.
-    void run(bool some_are_broken) {
-        std::vector<M> materials;
-        std::vector<glm::vec3> wo, wi;
-        for (std::size_t i = 0; i < L::size; ++i) {
-            auto own = typical_;
-            for (float& x : own) x *= 0.6f + 0.4f * uniform_(engine_);
-            wo.push_back(direction_above()), wi.push_back(direction_above());
-            is_sound_[i] = !some_are_broken || i % 2 == 0;
-            if (!is_sound_[i]) {
-                own[engine_() % own.size()] = broken_number();
-                (i % 4 < 2 ? wo[i] : wi[i])[static_cast<int>(engine_() % 3)] = broken_number();
-            }
-            materials.push_back(std::bit_cast<M>(own));
-        }
-        const CaughtAssertions caught;
-        const auto lanes = gathered<typename M::template In<L>>(materials).strategy(gathered<Vector<L>>(wo));
-        lumis::UniformsOf<std::remove_cvref_t<decltype(lanes)>> u;
-        for (int k = 0; k < lanes.dimensions; ++k) u[k] = L::of_lanes([&](auto) { return uniform_(engine_); });
-        const auto drawn = lanes.sample(u);
-        const auto of_drawn = value_at(lanes, drawn.value), of_wi = value_at(lanes, gathered<Vector<L>>(wi));
-        for (std::size_t i = 0; i < L::size; ++i) {
-            INFO("lane " << i);
-            const auto alone = materials[i].strategy(wo[i]);
-            const auto one = alone.sample(lumis::detail::lane_of(u, i));
-            const glm::vec3 value = lane_of<L>(drawn.value, i);
-            if (is_sound_[i]) {
-                REQUIRE(close(drawn.pdf[i], one.pdf));
-                if (one.pdf > 0) REQUIRE(glm::length(value - one.value) <= (fused ? 256 : 4) * epsilon);
-            }
-            require_same(of_drawn, value_at(alone, value), i);
-            require_same(of_wi, value_at(alone, wi[i]), i);
-            REQUIRE(close(value_at(alone, wi[i]).pdf, alone.pdf(wi[i])));
-        }
-    }
-
-  private:
-    template <class To>
-    static To gathered(const auto& of_each) {
-        return gather<To, L>(of_each, {0, 1, 2, 3, 4, 5, 6, 7});
-    }
-
-    // Of a delta material its coefficient.
-    template <lumis::Real R>
-    static Scattering<R> value_at(const auto& bsdf, const Vector<R>& wi) {
-        if constexpr (M::is_delta) {
-            return {bsdf.coefficient(wi), R(0.0f)};
-        } else {
-            return bsdf.evaluate(wi);
-        }
-    }
-
-    void require_same(const Scattering<L>& lanes, const Scattering<float>& one, std::size_t i) const {
-        const glm::vec3 reflected = lane_of<L>(lanes.reflected, i);
-        for (int k = 0; k < 3; ++k) {
-            for (const float x : {reflected[k], one.reflected[k]}) REQUIRE((x >= 0 && std::isfinite(x)));
-            REQUIRE((!is_sound_[i] || close(reflected[k], one.reflected[k])));
-        }
-        REQUIRE((!is_sound_[i] || close(lanes.pdf[i], one.pdf)));
-        REQUIRE((M::is_delta || one.pdf > 0 || one.reflected == glm::vec3{0}));
-    }
-
-    // Up to rounding. Where products are fused, numbers round in other ways than lanes.
-    static bool close(float a, float b) {
-        return a == b || std::abs(a - b) <= (fused ? 4096 : 16) * epsilon * std::abs(b);
-    }
-
-    float broken_number() {
-        constexpr float infinity = std::numeric_limits<float>::infinity(),
-                        nan = std::numeric_limits<float>::quiet_NaN();
-        constexpr std::array all{nan, infinity, -infinity, 0.0f, -1.0f, 1e30f, 1e-30f};
-        return all[engine_() % all.size()];
-    }
-    // Not grazing, where rounding is magnified; of what transmits, on either side.
-    glm::vec3 direction_above() {
-        const float versine = 0.9f * uniform_(engine_), turn = uniform_(engine_);
-        const glm::vec3 w = lumis::direction_at(versine, turn);
-        return M::transmits && engine_() % 2 == 0 ? -w : w;
-    }
-
-    static constexpr float epsilon = std::numeric_limits<float>::epsilon();
-    std::array<float, count<M>> typical_;
-    std::array<bool, L::size> is_sound_{};
-    std::mt19937 engine_{1};
-    std::uniform_real_distribution<float> uniform_{0, 0.99f};
-};
 
 }  // namespace
 
@@ -302,15 +204,40 @@ TEST_CASE("glass that absorbs nothing loses nothing but between its facets", "[m
 
 TEST_CASE("absorbing glass leaves less of light the longer its way", "[materials]") {
     const Absorbing<SmoothGlass<float>> glass{{glass_index}, {0.1f, 0, 5}};
-    const auto in_lanes = gather<decltype(glass)::In<L>, L>(std::vector{glass}, {});
+    const auto in_lanes = gather<decltype(glass)::In<Packet>, Packet>(std::vector{glass}, {});
     for (const float distance : {0.0f, 0.7f, 1e4f, 1e30f}) {
         const glm::vec3 left = glass.left_after(distance);
         CHECK(std::abs(double{left.x} - std::exp(-0.1 * double{distance})) <= 1e-7);
         CHECK(left.y == 1);
-        CHECK(lane_of<L>(in_lanes.left_after(L{distance}), 3) == left);
+        CHECK(lane_of<Packet>(in_lanes.left_after(Packet{distance}), 3) == left);
     }
-    const glm::vec3 wo{direction(-0.7, 1)}, wi{direction(0.4, 2)};
-    CHECK(glass.strategy(wo).coefficient(wi) == glass.glass.strategy(wo).coefficient(wi));
+}
+
+TEST_CASE("a pane of absorbing glass reflects and transmits what its surfaces do, to and fro", "[materials]") {
+    const Absorbing<SmoothGlass<float>> glass{{glass_index}, {0.5f, 0, 0}};
+    const glm::dvec3 from = direction(0.6, 1);
+    const double cos_t = std::sqrt(1 - 0.64 / (1.5 * 1.5)), f = fresnel(0.6, 1.5), left = std::exp(-0.5 / cos_t);
+    const double transmitted = (1 - f) * (1 - f) * left / (1 - f * f * left * left);
+    // A path from the camera through a pane of thickness 1. Both surfaces have their +z outside.
+    const auto walk = [&](auto& uniforms, bool through) {
+        glm::vec3 wo{from};
+        float throughput = 1;
+        for (int bounce = 0;; ++bounce) {
+            if (wo.z < 0) throughput *= glass.left_after(-1 / wo.z).x;
+            const auto bsdf = glass.strategy(wo);
+            const auto drawn = bsdf.sample(uniforms.template next<3>());
+            throughput *= bsdf.coefficient(drawn.value).x / drawn.pdf;
+            if (drawn.value.z > 0) return (bounce % 2 == 1) == through ? throughput : 0.0f;
+            wo = {-drawn.value.x, -drawn.value.y, drawn.value.z};
+        }
+    };
+    for (const bool through : {false, true}) {
+        lumis::Uniforms<std::mt19937, float> uniforms{std::mt19937{1}};
+        const auto law = laws::unbiased([&] { return walk(uniforms, through); },
+                                        through ? transmitted : f * (1 + left * transmitted), {100'000, {1e-4, 2}});
+        INFO(law);
+        CHECK(law.passed);
+    }
 }
 
 TEST_CASE("a polished metal is the limit of a rough one", "[materials]") {
