@@ -143,8 +143,8 @@ void require_writable(const std::string& path) {
     if (is_new) std::filesystem::remove(path);
 }
 
-void write_image(const std::string& path, const Image& image) {
-    write_file(path, ends_in(path, ".exr") ? exr_file(image) : srgb_file(image));
+void write_image(const std::string& path, const Image& image, std::span<const Layer> layers) {
+    write_file(path, ends_in(path, ".exr") ? exr_file(image, layers) : srgb_file(image));
 }
 
 void write_grey(const std::string& path, int width, int height, std::span<const unsigned char> values) {

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -16,6 +17,12 @@ struct Image {
     int width{}, height{};
     std::vector<glm::vec3> pixels;  // row by row from the top, Rec. 709
     std::string remark{};           // what a choice had to be made about when it was read
+};
+
+// Channels that a file keeps beside the picture's R, G and B: up to three, by their full names ("albedo.R", "albedo.G" ...).
+struct Layer {
+    std::vector<std::string> channels;
+    std::function<glm::vec3(std::size_t pixel)> values;  // of the first, second and third channel
 };
 
 // A file that cannot be read or written; what() says which and why.
@@ -38,9 +45,9 @@ inline constexpr std::uint64_t max_pixels = std::uint64_t{1} << 27;
 [[nodiscard]] Image read_image(std::span<const std::byte> bytes, const std::string& name,
                                std::uint64_t limit = max_pixels);
 
-// By the ending, in small or capital letters: .exr keeps the linear values, .png shows them in sRGB.
+// By the ending, in small or capital letters: .exr keeps the linear values and the layers, .png shows the picture in sRGB.
 [[nodiscard]] bool is_writable_format(const std::string& path);
-void write_image(const std::string& path, const Image& image);
+void write_image(const std::string& path, const Image& image, std::span<const Layer> layers = {});
 
 // Throws FileError unless the file can be written. What it contains stays as it is.
 void require_writable(const std::string& path);

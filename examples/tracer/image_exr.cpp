@@ -268,22 +268,33 @@ Image read_exr(Bytes bytes, std::uint64_t limit) {
     return image;
 }
 
-std::string exr_file(const Image& image) {
+std::string exr_file(const Image& image, std::span<const Layer> layers) {
     Imf::Header header{image.width, image.height};
     Imf::FrameBuffer buffer;
-    for (int c = 0; c < 3; ++c) {
-        const std::string name{"RGB"[c]};
+    const auto width = static_cast<std::size_t>(image.width);
+    // The library only reads from it. A bytes_of_line of 0 makes all lines one, whose values change.
+    const auto add_channel = [&](const std::string& name, const float& first, std::size_t bytes_of_line) {
         header.channels().insert(name, Imf::Channel{Imf::FLOAT});
-        // The library only reads from it.
-        auto* values = const_cast<float*>(&image.pixels.front()[c]);
-        buffer.insert(name, {Imf::FLOAT, reinterpret_cast<char*>(values), sizeof(glm::vec3),
-                             sizeof(glm::vec3) * static_cast<std::size_t>(image.width)});
+        auto* values = reinterpret_cast<char*>(const_cast<float*>(&first));
+        buffer.insert(name, {Imf::FLOAT, values, sizeof(glm::vec3), bytes_of_line});
+    };
+    for (int c = 0; c < 3; ++c) add_channel({"RGB"[c]}, image.pixels.front()[c], width * sizeof(glm::vec3));
+    std::vector<std::vector<glm::vec3>> lines(layers.size(), std::vector<glm::vec3>(width));
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        for (std::size_t c = 0; c < layers[i].channels.size(); ++c) {
+            add_channel(layers[i].channels[c], lines[i].front()[static_cast<int>(c)], 0);
+        }
     }
     Imf::StdOSStream stream;
     {
         Imf::OutputFile file{stream, header, 0};
         file.setFrameBuffer(buffer);
-        file.writePixels(image.height);
+        for (std::size_t begin = 0; begin < image.pixels.size(); begin += width) {
+            for (std::size_t i = 0; i < layers.size(); ++i) {
+                for (std::size_t x = 0; x < width; ++x) lines[i][x] = layers[i].values(begin + x);
+            }
+            file.writePixels(1);
+        }
     }
     return stream.str();
 }

@@ -19,7 +19,7 @@ using Bytes = std::span<const std::byte>;
 [[nodiscard]] Image read_png(Bytes file, std::uint64_t limit);
 
 // The bytes of a file.
-[[nodiscard]] std::string exr_file(const Image& image);
+[[nodiscard]] std::string exr_file(const Image& image, std::span<const Layer> layers);
 [[nodiscard]] std::string png_file(int width, int height, int channels, std::span<const unsigned char> bytes);
 
 // The curve of sRGB, from [0, 1] to [0, 1] and back.
