@@ -12,9 +12,6 @@
 
 namespace tracer {
 
-// Samples of a pixel in one pass, as many as the renderer has lanes. Only the last pass of a rendering may have fewer.
-inline constexpr int pass_samples = 8;
-
 // Samples of a pixel in a rendering: with more, a sum in float, of an albedo, stops growing.
 inline constexpr int max_samples = 1 << 24;
 

@@ -1,12 +1,12 @@
 // Renders one scene with one integrator. What can be known to be wrong is found before rendering. Exit codes: 0, 1 for files
 // and memory, 2 for a wrong command, 128 + the signal's number after an interruption.
+#include "command_line.hpp"
 #include "image.hpp"
 #include "interruption.hpp"
+#include "progress.hpp"
 #include "renderer.hpp"
 
-#include <CLI/CLI.hpp>
 #include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
 
 #include <algorithm>
 #include <chrono>
@@ -20,36 +20,19 @@
 #include <iostream>
 #include <limits>
 #include <new>
-#include <set>
 #include <sstream>
+#include <variant>
 
 namespace {
 
 using namespace tracer;
-
-struct Settings {
-    std::string scene = "veach", integrator = "power";
-    int spp = 64;
-    double seconds = 0;  // 0: samples decide
-    std::uint64_t seed = 1;
-    int threads = oneapi::tbb::info::default_concurrency();
-    int width = 0, height = 0;  // 0: the scene's own
-    std::string environment;
-    std::vector<std::string> outputs{"render.png"};
-};
-
-std::vector<std::string> scene_names() {
-    std::vector<std::string> names;
-    for (const SceneEntry& scene : scenes()) names.emplace_back(scene.name);
-    return names;
-}
 
 void list() {
     for (const SceneEntry& scene : scenes()) {
         std::cout << "scene " << scene.name << ": " << scene.title << ", " << scene.width << " x " << scene.height
                   << '\n';
     }
-    for (const auto name : integrator_names) std::cout << "integrator " << name << '\n';
+    for (const auto name : integrator_names()) std::cout << "integrator " << name << '\n';
 }
 
 // Bytes that the machine has left; as many as there can be if it does not say.
@@ -63,7 +46,8 @@ double available_memory() {
 
 // The system grants more memory than there is, and ends a program that uses it without a word.
 void require_memory(int width, int height) {
-    constexpr double bytes_of_pixel = 140;  // what it sees, its sum, and the images to be written
+    constexpr double bytes_of_file = 4 * 13;  // three channels, and those of the layers
+    constexpr double bytes_of_pixel = sizeof(Pixel) + sizeof(glm::vec3) + 2 * bytes_of_file;  // the file in two copies
     const double needed = bytes_of_pixel * width * height, available = available_memory();
     if (needed <= available) return;
     std::ostringstream message;
@@ -72,64 +56,99 @@ void require_memory(int width, int height) {
     throw std::runtime_error(message.str());
 }
 
-// Shows on one line how far a rendering is.
-class Progress {
+// Saves a rendering again and again. A disk that is full now must not end it.
+class Saving {
   public:
-    explicit Progress(const Settings& settings) : settings_{settings} {}
+    explicit Saving(const Settings& settings)
+        : path_{settings.checkpoint},
+          interval_{settings.checkpoint_seconds},
+          origin_{path_.empty() ? Origin{} : origin_of(settings)} {}
 
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-    // At most ten times a second, and when it is done.
-    void show(int samples, bool is_done) {
-        const double now = seconds();
-        if (!is_done && now < shown_ + 0.1) return;
-        shown_ = now;
-        std::fprintf(stderr, "\r%s, %s: ", settings_.scene.c_str(), settings_.integrator.c_str());
-        if (settings_.seconds > 0) {
-            std::fprintf(stderr, "%d samples a pixel, %.1f of %g s ", samples, now, settings_.seconds);
-        } else {
-            const double left = now * (settings_.spp - samples) / std::max(samples, 1);
-            std::fprintf(stderr, "%d of %d samples a pixel, %.1f s, %.1f s left ", samples, settings_.spp, now, left);
+    // The rendering to continue, or an empty one.
+    [[nodiscard]] Checkpoint begin(const Settings& settings, int width, int height) const {
+        if (!path_.empty()) {
+            const bool exists = std::filesystem::exists(path_);
+            if (exists && settings.resume) return load_checkpoint(path_, origin_, width, height);
+            if (exists) throw FileError(path_ + " exists already: continue it with --resume, or remove it");
+            if (settings.resume) std::cerr << "tracer: there is no " << path_ << " yet: rendering from the start\n";
+            require_checkpoint_writable(path_);
         }
-        if (is_done) std::fprintf(stderr, "\n");
+        return {Film{width, height}, samples_of_pass(settings.limits)};
     }
+
+    void save(const Checkpoint& checkpoint) {
+        if (path_.empty()) return;
+        try {
+            save_checkpoint(path_, origin_, checkpoint);
+            failure_.clear();
+        } catch (const FileError& error) {
+            if (failure_.empty()) std::cerr << "\ntracer: " << error.what() << '\n';
+            failure_ = error.what();
+        }
+        saved_ = std::chrono::steady_clock::now();
+    }
+    void save_if_due(const Checkpoint& checkpoint) {
+        if (std::chrono::steady_clock::now() - saved_ >= interval_) save(checkpoint);
+    }
+
+    // Why the last attempt failed, or empty.
+    [[nodiscard]] const std::string& failure() const { return failure_; }
 
   private:
-    const Settings& settings_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-    double shown_ = 0;
+    std::string path_;  // empty: nothing is saved
+    std::chrono::duration<double> interval_;
+    Origin origin_;
+    std::string failure_;
+    std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
 };
 
-// Adds passes until the samples or the seconds are used up, or the user interrupts.
-Film render(const Renderer& renderer, const Settings& settings, int width, int height) {
-    Film film{width, height};
-    Progress progress{settings};
-    double cpu_seconds = 0;
-    const bool timed = settings.seconds > 0;
-    for (std::uint64_t pass = 0; Interruption::received() == 0; ++pass) {
-        const int samples = timed ? pass_samples : std::min(pass_samples, settings.spp - film.samples());
-        if (timed ? pass > 0 && progress.seconds() >= settings.seconds : samples == 0) break;
-        cpu_seconds += renderer.add_pass(film, settings.integrator, samples, settings.seed, pass);
-        progress.show(film.samples(), false);
+// Adds passes until a limit is reached or the user interrupts.
+void render(const Renderer& renderer, const Settings& settings, Checkpoint& rendering, Saving& saving) {
+    Film& film = rendering.film;
+    const Limits& limits = settings.limits;
+    if (film.samples() > limits.samples) {
+        throw FileError(settings.checkpoint + " holds " + std::to_string(film.samples()) +
+                        " samples of a pixel, more than --spp " + std::to_string(limits.samples));
     }
-    progress.show(film.samples(), true);
-    std::printf("%d samples a pixel in %.2f s, %.2f s of CPU\n", film.samples(), progress.seconds(), cpu_seconds);
-    return film;
+    const int samples_before = film.samples();
+    Progress progress{settings.scene + ", " + settings.integrator, limits, samples_before};
+    double error = is_error_due(film.passes()) ? film.relative_error() : std::numeric_limits<double>::infinity();
+    bool is_whole = true;
+    while (Interruption::received() == 0) {
+        const int samples = std::min(limits.samples - film.samples(), rendering.pass_samples);
+        const bool is_late = film.samples() > samples_before && progress.seconds() >= limits.seconds;
+        if (samples == 0 || error < limits.error || is_late) break;
+        // A checkpoint holds whole passes, so that it can be continued to more samples than were asked for now.
+        is_whole = samples == rendering.pass_samples;
+        if (!is_whole) saving.save(rendering);
+        rendering.cpu_seconds +=
+            renderer.add_pass(film, settings.integrator, settings.options(), samples, settings.seed, film.passes());
+        if (is_error_due(film.passes())) error = film.relative_error();
+        if (is_whole) saving.save_if_due(rendering);
+        progress.show(film.samples(), error, false);
+    }
+    if (film.samples() == 0) return;
+    if (is_whole) saving.save(rendering);
+    error = film.relative_error();
+    progress.show(film.samples(), error, true);
+    std::printf("%d samples a pixel in %.2f s, %.2f s of CPU", film.samples(), progress.seconds(),
+                rendering.cpu_seconds);
+    if (std::isfinite(error)) std::printf(", relative error %.3g %%", 100 * error);
+    std::printf("\n");
 }
 
-// All outputs that can be written; what went wrong with the others.
-void write(const std::vector<std::string>& outputs, const Image& image) {
-    std::string wrong;
-    for (const std::string& output : outputs) {
+// All outputs that can be written; what went wrong with the others is thrown.
+void write(const Settings& settings, const Film& film, std::string wrong) {
+    const auto attempt = [&](const std::string& output, const Image& image, const std::vector<Layer>& layers) {
         try {
-            write_image(output, image);
+            write_image(output, image, layers);
             std::printf("wrote %s\n", output.c_str());
         } catch (const FileError& error) {
             wrong += (wrong.empty() ? "" : "; ") + std::string{error.what()};
         }
-    }
+    };
+    for (const std::string& output : settings.outputs) attempt(output, film.image(), film.layers());
+    if (!settings.error_output.empty()) attempt(settings.error_output, film.standard_error(), {});
     if (!wrong.empty()) throw FileError(wrong);
 }
 
@@ -140,14 +159,17 @@ int run(const Settings& settings) {
     const int width = settings.width > 0 ? settings.width : scene.width;
     const int height = settings.height > 0 ? settings.height : scene.height;
     for (const std::string& output : settings.outputs) require_writable(output);
+    if (!settings.error_output.empty()) require_writable(settings.error_output);
     require_memory(width, height);
     bool any = false;
     try {
+        Saving saving{settings};
+        Checkpoint rendering = saving.begin(settings, width, height);
         const auto renderer = scene.make({width, height, settings.environment});
         Interruption::watch();
-        const Film film = render(*renderer, settings, width, height);
-        any = film.samples() > 0;
-        if (any) write(settings.outputs, film.image());
+        render(*renderer, settings, rendering, saving);
+        any = rendering.film.samples() > 0;
+        if (any) write(settings, rendering.film, saving.failure());
     } catch (const std::bad_alloc&) {
         throw std::runtime_error("there is not enough memory for an image of " + std::to_string(width) + " x " +
                                  std::to_string(height));
@@ -157,74 +179,13 @@ int run(const Settings& settings) {
     return 128 + Interruption::received();
 }
 
-std::string check_output(const std::string& path) {
-    return is_writable_format(path) ? std::string{} : path + " ends neither in .png nor in .exr";
-}
-
-std::string check_seconds(const std::string& text) {
-    const double seconds = std::atof(text.c_str());
-    return seconds > 0 && std::isfinite(seconds) ? std::string{} : text + " is no positive number";
-}
-
-// Without this, -1 would count as 2^64 - 1.
-std::string check_seed(const std::string& text) {
-    return text.starts_with('-') ? text + " is negative" : std::string{};
-}
-
-// What no option by itself shows.
-void check_together(const Settings& settings, bool has_environment) {
-    if (has_environment && !find_scene(settings.scene)->has_sky) {
-        throw CLI::ValidationError("--env", "the scene " + settings.scene + " has no sky");
-    }
-    if (has_environment && settings.environment.empty()) throw CLI::ValidationError("--env", "the file has no name");
-    std::set<std::filesystem::path> files;
-    for (const std::string& output : settings.outputs) {
-        if (files.insert(weakly_canonical(absolute(std::filesystem::path{output}))).second) continue;
-        throw CLI::ValidationError("--output", output + " is named twice");
-    }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    Settings settings;
-    const std::vector<std::string> integrators(integrator_names.begin(), integrator_names.end());
-    bool list_only = false;
-
-    CLI::App app{"Renders direct light with Lumis."};
-    app.add_option("--scene", settings.scene, "What to render")
-        ->check(CLI::IsMember(scene_names()))
-        ->capture_default_str();
-    app.add_option("--integrator", settings.integrator, "How to estimate its light")
-        ->check(CLI::IsMember(integrators))
-        ->capture_default_str();
-    const auto* spp =
-        app.add_option("--spp", settings.spp, "Samples a pixel")->check(CLI::Range(1, 1 << 24))->capture_default_str();
-    app.add_option("--seconds", settings.seconds, "Render for this long instead")
-        ->check(CLI::Validator{check_seconds, ""})
-        ->excludes(const_cast<CLI::Option*>(spp));
-    app.add_option("--seed", settings.seed, "Of the random numbers")
-        ->check(CLI::Validator{check_seed, ""})
-        ->capture_default_str();
-    app.add_option("--threads", settings.threads, "The image does not depend on them")
-        ->check(CLI::Range(1, 1024))
-        ->capture_default_str();
-    app.add_option("--width", settings.width, "In pixels; the scene's own by default")->check(CLI::Range(1, 16384));
-    app.add_option("--height", settings.height, "In pixels; the scene's own by default")->check(CLI::Range(1, 16384));
-    const auto* environment = app.add_option(
-        "--env", settings.environment, "Environment map of the scene sky, latitude-longitude: .hdr, .exr or .png");
-    app.add_option("--output", settings.outputs, "A .png for the eye, a .exr for the linear values, or both")
-        ->check(check_output)
-        ->capture_default_str();
-    app.add_flag("--list", list_only, "Show the scenes and integrators");
-
-    try {
-        app.parse(argc, argv);
-        check_together(settings, environment->count() > 0);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    if (list_only) {
+    const auto parsed = parse_command_line(argc, argv);
+    if (const int* code = std::get_if<int>(&parsed)) return *code;
+    const Settings& settings = std::get<Settings>(parsed);
+    if (settings.list_only) {
         list();
         return 0;
     }

@@ -1,0 +1,155 @@
+#include "command_line.hpp"
+
+#include "image.hpp"
+#include "renderer.hpp"
+#include <lumis/version.hpp>
+
+#include <CLI/CLI.hpp>
+#include <oneapi/tbb/info.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+namespace tracer {
+
+namespace {
+
+// The names in a table of the tracer's.
+std::vector<std::string> names_of(const auto& table) {
+    std::vector<std::string> names;
+    for (const auto& entry : table) names.emplace_back(entry.name);
+    return names;
+}
+
+std::string check_output(const std::string& path) {
+    return is_writable_format(path) ? std::string{} : path + " ends neither in .png nor in .exr";
+}
+
+std::string check_seconds(const std::string& text) {
+    const double seconds = std::atof(text.c_str());
+    return seconds > 0 && std::isfinite(seconds) ? std::string{} : text + " is no positive number";
+}
+
+// Without this, -1 would count as 2^64 - 1.
+std::string check_seed(const std::string& text) {
+    return text.starts_with('-') ? text + " is negative" : std::string{};
+}
+
+// Makes "0.01" of "1%".
+std::string transform_error(std::string& text) {
+    const bool is_percentage = text.ends_with('%');
+    const std::string number = is_percentage ? text.substr(0, text.size() - 1) : text;
+    char* end = nullptr;
+    const double error = std::strtod(number.c_str(), &end) * (is_percentage ? 0.01 : 1);
+    if (number.empty() || *end != '\0' || !(error > 0 && error < 1)) {
+        return text + " is no error between 0 and 100 %, such as 1% or 0.01";
+    }
+    if (is_percentage) text = CLI::detail::to_string(error);
+    return {};
+}
+
+// What no option by itself shows.
+void check_together(const Settings& settings, bool has_environment) {
+    if (has_environment && !find_scene(settings.scene)->has_sky) {
+        throw CLI::ValidationError("--env", "the scene " + settings.scene + " has no sky");
+    }
+    if (has_environment && settings.environment.empty()) throw CLI::ValidationError("--env", "the file has no name");
+    std::set<std::filesystem::path> files;
+    const auto require_new = [&](const std::string& option, const std::string& file) {
+        if (file.empty() || files.insert(weakly_canonical(absolute(std::filesystem::path{file}))).second) return;
+        throw CLI::ValidationError(option, file + " is named twice");
+    };
+    for (const std::string& output : settings.outputs) require_new("--output", output);
+    require_new("--error-output", settings.error_output);
+    require_new("--checkpoint", settings.checkpoint);
+}
+
+}  // namespace
+
+Origin origin_of(const Settings& settings) {
+    return {{"version", std::to_string(LUMIS_VERSION)},
+            {"scene", settings.scene},
+            {"env", settings.environment.empty() ? "the scene's own" : checksum_of_file(settings.environment)},
+            {"integrator", settings.integrator},
+            {"bounces", std::to_string(settings.bounces)},
+            {"sampler", settings.sampler},
+            {"filter", settings.filter},
+            {"seed", std::to_string(settings.seed)}};
+}
+
+std::variant<Settings, int> parse_command_line(int argc, char** argv) {
+    Settings settings;
+    settings.threads = oneapi::tbb::info::default_concurrency();
+    int spp = 64;
+
+    CLI::App app{
+        "Renders a scene with Lumis: paths, whose every bounce combines the BSDF's samples with the lights'.\n"
+        "Ends at whichever of --spp, --seconds and --error is reached first; Ctrl-C writes what there is."};
+    const auto add_name = [&](const char* option, std::string& name, const std::vector<std::string>& names,
+                              const char* description) {
+        app.add_option(option, name, description)->check(CLI::IsMember(names))->capture_default_str();
+    };
+    const CLI::Validator is_output{check_output, ""}, is_positive{check_seconds, ""};
+    const CLI::Range is_size{1, 16384};
+
+    add_name("--scene", settings.scene, names_of(scenes()), "What to render");
+    add_name("--integrator", settings.integrator, {integrator_names().begin(), integrator_names().end()},
+             "How to estimate its light");
+    app.add_option("--bounces", settings.bounces, "Of a path: 0 shows what emits light, 1 adds direct light")
+        ->check(CLI::Range(0, 1 << 16))
+        ->capture_default_str();
+    add_name("--sampler", settings.sampler, names_of(samplers), "Where the random numbers come from");
+    add_name("--filter", settings.filter, names_of(filters), "How a pixel weighs what is around it");
+    const auto* has_spp =
+        app.add_option("--spp", spp, "Samples a pixel; without limit if --seconds or --error is given")
+            ->check(CLI::Range(1, max_samples))
+            ->capture_default_str();
+    const auto* has_seconds =
+        app.add_option("--seconds", settings.limits.seconds, "Ends this run after so long")->check(is_positive);
+    const auto* has_error =
+        app.add_option("--error", settings.limits.error, "Ends when the relative error is estimated to be less, as 1%")
+            ->transform(CLI::Validator{transform_error, ""});
+    app.add_option("--seed", settings.seed, "Of the random numbers")
+        ->check(CLI::Validator{check_seed, ""})
+        ->capture_default_str();
+    app.add_option("--threads", settings.threads, "The image does not depend on them")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    app.add_option("--width", settings.width, "In pixels; the scene's own by default")->check(is_size);
+    app.add_option("--height", settings.height, "In pixels; the scene's own by default")->check(is_size);
+    const auto* has_environment = app.add_option(
+        "--env", settings.environment, "Environment map of the scene sky, latitude-longitude: .hdr, .exr or .png");
+    app.add_option(
+           "--output", settings.outputs,
+           "A .png for the eye, a .exr for the linear values and layers (albedo, normal, variance, samples), or "
+           "both")
+        ->check(is_output)
+        ->capture_default_str();
+    app.add_option("--error-output", settings.error_output, "The standard error of each pixel, as an image of its own")
+        ->check(is_output);
+    auto* checkpoint = app.add_option("--checkpoint", settings.checkpoint,
+                                      "Saves the rendering there now and then, at the end, and at Ctrl-C");
+    app.add_option("--checkpoint-seconds", settings.checkpoint_seconds, "How often")
+        ->check(is_positive)
+        ->needs(checkpoint)
+        ->capture_default_str();
+    app.add_flag("--resume", settings.resume, "Continues from the checkpoint, if it is there")->needs(checkpoint);
+    app.add_flag("--list", settings.list_only, "Show the scenes and integrators");
+
+    try {
+        app.parse(argc, argv);
+        if (checkpoint->count() > 0 && settings.checkpoint.empty()) {
+            throw CLI::ValidationError("--checkpoint", "the file has no name");
+        }
+        check_together(settings, has_environment->count() > 0);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    const bool is_limited = has_seconds->count() > 0 || has_error->count() > 0;
+    if (has_spp->count() > 0 || !is_limited) settings.limits.samples = spp;
+    return settings;
+}
+
+}  // namespace tracer
