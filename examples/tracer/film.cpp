@@ -31,15 +31,34 @@ glm::vec3 normal_of(const Pixel& pixel) {
     return pixel.normal / static_cast<float>(std::max(pixel.samples, 1u));
 }
 
-// The sum of value(pixel) over pixels and channels, in the same order for any number of threads.
-double sum_over(const std::vector<Pixel>& pixels, const auto& value) {
-    const oneapi::tbb::blocked_range<std::size_t> all{0, pixels.size(), 4096};
+// The sum of value(i) over pixels and channels, in the same order for any number of threads.
+double sum_over_pixels(std::size_t count, const auto& value) {
+    const oneapi::tbb::blocked_range<std::size_t> all{0, count, 4096};
     const auto sum = [&](const oneapi::tbb::blocked_range<std::size_t>& range, glm::dvec3 total) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) total += value(pixels[i]);
+        for (std::size_t i = range.begin(); i < range.end(); ++i) total += value(i);
         return total;
     };
     const glm::dvec3 total = oneapi::tbb::parallel_deterministic_reduce(all, glm::dvec3{0}, sum, std::plus<>{});
     return total.r + total.g + total.b;
+}
+
+// The third largest of a pixel's eight neighbours, channel by channel. Beyond the edge, the image goes on as at the edge.
+glm::vec3 third_brightest_around(const Image& image, std::size_t index) {
+    const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
+    const std::size_t x = index % width, y = index / width;
+    const std::size_t columns[]{x - (x > 0), x, x + (x + 1 < width)};
+    const std::size_t rows[]{y - (y > 0), y, y + (y + 1 < height)};
+    glm::vec3 first{0}, second{0}, third{0};
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c) {
+            if (r == 1 && c == 1) continue;
+            const glm::vec3& value = image.pixels[rows[r] * width + columns[c]];
+            third = glm::max(third, glm::min(second, value));
+            second = glm::max(second, glm::min(first, value));
+            first = glm::max(first, value);
+        }
+    }
+    return third;
 }
 
 }  // namespace
@@ -92,12 +111,15 @@ std::vector<Layer> Film::layers() const {
 }
 
 double Film::relative_error() const {
+    const Image means = image();
     const double values = 3 * static_cast<double>(pixels.size());
-    const double floor = 0.1 * sum_over(pixels, [](const Pixel& pixel) { return pixel.mean(); }) / values;
+    const double floor = 0.1 * sum_over_pixels(pixels.size(), [&](std::size_t i) { return means.pixels[i]; }) / values;
     if (floor == 0 || passes() < 2) return std::numeric_limits<double>::infinity();
-    const double squares = sum_over(pixels, [floor](const Pixel& pixel) {
-        const glm::dvec3 scale = glm::max(glm::abs(pixel.mean()), glm::dvec3{floor});
-        return pixel.variance() / (scale * scale);
+    const double squares = sum_over_pixels(pixels.size(), [&](std::size_t i) {
+        const glm::dvec3 value = pixels[i].mean(), variance = pixels[i].variance();
+        const glm::dvec3 likely = glm::min(value, glm::dvec3{third_brightest_around(means, i)});
+        const glm::dvec3 scale = glm::max(glm::max(likely, value - 2.0 * glm::sqrt(variance)), glm::dvec3{floor});
+        return variance / (scale * scale);
     });
     return std::sqrt(squares / values);
 }

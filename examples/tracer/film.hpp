@@ -65,9 +65,10 @@ struct Film {
 
     // The estimated error of image() without a reference: the root of the mean, over pixels and channels, of
     // variance / max(value, floor)^2, where floor is a tenth of the image's mean. Its square estimates the
-    // lumis::relative_mean_squared_error that image() has against the true image. A pixel that came out bright by chance counts
-    // as bright: the estimate is 6 % low after two passes, 2 % after eight. A light that no sample has found yet is missing
-    // in it, as it is in the image. Infinite before the second pass and while all is black.
+    // lumis::relative_mean_squared_error that image() has against the true image. A pixel counts as no brighter than the third
+    // brightest of its neighbours, unless its value less two standard errors is: a lone pixel that is a hundred times too
+    // bright has an error of 100 % of itself, and of 10,000 % of what it should be. A light that no sample has found yet is
+    // missing here as it is in the image. Infinite before the second pass and while all is black.
     [[nodiscard]] double relative_error() const;
 };
 
