@@ -215,6 +215,11 @@ class LightSet {
         light.pdf_from_hit(distance, cos_light);
     }
     { return table_.pdf(index) * light(index).pdf_from_hit(distance, cos_light); }
+    // How far away light `index` is along w; infinity where w misses it, and for an index that is none.
+    [[nodiscard]] LUMIS_HD Scalar distance_of(std::size_t index,
+                                              const Point& w) const noexcept requires LightStrategy<Light> {
+        return index < table_.size() ? light(index).distance_along(w) : std::numeric_limits<Scalar>::infinity();
+    }
 
   private:
     LUMIS_HD void require_same_size() const {

@@ -1,5 +1,11 @@
 // One light of a set, and a direction to it: a strategy over pairs of both, whose density is known in constant time, however many
 // lights there are. A LightSet is one over directions, whose density asks every light.
+// MetLight carries a strategy over directions, that of a BSDF, to such pairs: so both combine in constant time.
+//
+//     const SelectedLight one{LightSet{lights, tree.from(point, normal)}};
+//     const MetLight met{one, in_frame(frame, bsdf), [&](vec3 w) { return scene.trace(point, w).light; }};
+//     const auto direct = multi_sample(PowerHeuristic{}, take(1, met), take(1, one));
+//     direct.estimate([&](const AnySample auto& s) { ... s.value.index, s.value.direction, s.distance }, uniforms);
 #pragma once
 
 #include "lumis/core/detail/held.hpp"
@@ -53,11 +59,62 @@ class SelectedLight {
 
     [[nodiscard]] LUMIS_HD Scalar pdf(const Point& x) const noexcept { return set_.pdf_of(x.index, x.direction); }
 
+    // To light x.index; infinity where x.direction misses it.
+    [[nodiscard]] LUMIS_HD Scalar distance_along(const Point& x) const noexcept requires requires(const Held& set) {
+        set.distance_of(x.index, x.direction);
+    }
+    { return set_.distance_of(x.index, x.direction); }
+
   private:
     Set set_;
 };
 
 template <class Set>
 SelectedLight(Set&&) -> SelectedLight<detail::Held<Set>>;
+
+// A direction drawn by S, and the light that it meets: met(w) is the index of the light that a ray along w meets first, or
+// no_light; then nothing is drawn. A ray is traced in sample alone: the density is that of S, for pairs whose light is the one
+// that is met; where it is another the integrand is 0, as SelectedLight demands. One: the SelectedLight that this is to be
+// combined with.
+template <class One, class S, class Meet>
+class MetLight {
+    using Selected = std::remove_cvref_t<One>;
+    using Drawing = std::remove_cvref_t<S>;
+
+  public:
+    using Scalar = typename Selected::Scalar;
+    using Point = typename Selected::Point;
+    using Measure = typename Selected::Measure;
+    static constexpr int dimensions = Drawing::dimensions;
+    static constexpr bool is_delta = DeltaStrategy<Drawing>;
+
+    static_assert(std::same_as<typename Drawing::Scalar, Scalar> &&
+                      std::same_as<typename Drawing::Point, decltype(Point::direction)>,
+                  "lights are met by directions of their own scalar type");
+
+    // Of `one` the type alone counts.
+    LUMIS_HD constexpr MetLight(const Selected&, S strategy LUMIS_LIFETIME_BOUND, Meet met)
+        : strategy_{std::forward<S>(strategy)}, met_{std::move(met)} {}
+
+    [[nodiscard]] LUMIS_HD Sample<Point, Scalar> sample(glm::vec<dimensions, Scalar> u) const noexcept {
+        const auto drawn = strategy_.sample(u);
+        const auto pdf = static_cast<Scalar>(drawn.pdf);
+        if (!(pdf > 0)) return {};
+        const decltype(Point::direction) w(drawn.value);
+        const std::size_t index = met_(w);
+        return {{index, w}, index != no_light ? pdf : Scalar(0)};
+    }
+
+    [[nodiscard]] LUMIS_HD Scalar pdf(const Point& x) const noexcept {
+        return x.index != no_light ? static_cast<Scalar>(strategy_.pdf(x.direction)) : Scalar(0);
+    }
+
+  private:
+    S strategy_;
+    Meet met_;
+};
+
+template <class Selected, class S, class Meet>
+MetLight(const Selected&, S&&, Meet) -> MetLight<Selected, detail::Held<S>, Meet>;
 
 }  // namespace lumis::LUMIS_ISA
