@@ -2,6 +2,7 @@
 // as a type, so that it contains no other shape's code.
 #pragma once
 
+#include "emitters.hpp"
 #include "geometry.hpp"
 #include "packet.hpp"
 #include <lumis/lumis.hpp>
@@ -11,21 +12,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <stdexcept>
 #include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace tracer {
-
-// A direction towards a light. pdf 0: none was drawn.
-template <lumis::Real R>
-struct LightDraw {
-    Vector<R> direction;
-    R pdf;  // per solid angle, the choice of this light included
-    R distance;
-    Vector<R> radiance;
-};
 
 // Where light is looked for: a point, and the side of its surface, below whose horizon it receives nothing. A surface that
 // transmits has no such side: its normal is 0.
@@ -48,13 +41,6 @@ struct Extent {
     return {p.corner + 0.5f * (p.edge_u + p.edge_v), 0.5f * diagonal, glm::length(glm::cross(p.edge_u, p.edge_v))};
 }
 
-// A light of a shape.
-template <class Shape>
-struct Emitter {
-    Shape shape;
-    Vector<typename Shape::Scalar> radiance;
-};
-
 // A few lights of one shape: one is chosen in proportion to the irradiance that each can cause at most, roughly, and sampled.
 // Each is asked at every point: for up to eight.
 // Samples: that a point takes of them; their choices are spread evenly.
@@ -67,16 +53,16 @@ class FewLights {
 
     // Returns the light's index.
     std::uint32_t add(const Shape<float>& shape, const glm::vec3& radiance) {
+        if (extents_.size() == most) throw std::length_error("more than eight lights: choose them by ManyLights");
         const Extent<float> bounds = extent(shape);
         const float brightest = std::max({radiance.r, radiance.g, radiance.b});
-        emitters_.push_back({shape, radiance});
         extents_.push_back({bounds.center, bounds.radius, bounds.area * brightest});
-        return static_cast<std::uint32_t>(emitters_.size() - 1);
+        return emitters_.add(shape, radiance);
     }
 
     template <lumis::Real R>
     [[nodiscard]] Vector<R> radiance(const Indices<R>& light) const {
-        return gather<Emitter<Shape<R>>, R>(emitters_, light).radiance;
+        return emitters_.template radiance<R>(light);
     }
 
     template <lumis::Real R>
@@ -100,7 +86,7 @@ class FewLights {
         [[nodiscard]] LightDraw<R> sample(const glm::vec<3, R>& u) const {
             const R at = u.x * total_;
             Indices<R> chosen{};
-            R below(0.0f), share = up_to_[0];
+            R share = up_to_[0];
             for (std::size_t i = 1; i < lights_.extents_.size(); ++i) {
                 const Mask<R> is_beyond = at >= up_to_[i - 1] && up_to_[i] > up_to_[i - 1];
                 share = lumis::real::select(is_beyond, up_to_[i] - up_to_[i - 1], share);
@@ -108,11 +94,9 @@ class FewLights {
                     chosen[k] = lane(is_beyond, k) ? static_cast<std::uint32_t>(i) : chosen[k];
                 }
             }
-            const Emitter<Shape<R>> emitter = gather<Emitter<Shape<R>>, R>(lights_.emitters_, chosen);
-            const auto drawn =
-                lumis::AreaLight<Shape<R>, Sampling>{emitter.shape, position_}.sample(glm::vec<2, R>{u.y, u.z});
-            const R chance = lumis::real::quotient_where(total_ > 0.0f, share, total_);
-            return {drawn.value, drawn.pdf * chance, drawn.distance, emitter.radiance};
+            LightDraw<R> drawn = lights_.emitters_.template sample<R>(chosen, position_, glm::vec<2, R>{u.y, u.z});
+            drawn.pdf *= lumis::real::quotient_where(total_ > 0.0f, share, total_);
+            return drawn;
         }
 
         // The density of a direction that has met a light.
@@ -122,8 +106,7 @@ class FewLights {
                 const Mask<R> is_met = are<R>(light, static_cast<std::uint32_t>(i));
                 share = lumis::real::select(is_met, i == 0 ? up_to_[0] : up_to_[i] - up_to_[i - 1], share);
             }
-            const Emitter<Shape<R>> emitter = gather<Emitter<Shape<R>>, R>(lights_.emitters_, light);
-            const R pdf = lumis::AreaLight<Shape<R>, Sampling>{emitter.shape, position_}.pdf_from_hit(distance, cosine);
+            const R pdf = lights_.emitters_.template pdf_from_hit<R>(light, position_, distance, cosine);
             return lumis::real::quotient_where(total_ > 0.0f, share, total_) * pdf;
         }
 
@@ -140,7 +123,7 @@ class FewLights {
     }
 
   private:
-    std::vector<Emitter<Shape<float>>> emitters_;
+    Emitters<Shape, Sampling> emitters_;
     std::vector<Extent<float>> extents_;  // whose areas are times radiance
 };
 
@@ -154,7 +137,7 @@ class Lights {
     Lights() = default;
     explicit Lights(Groups... groups) : groups_{std::move(groups)...} {}
 
-    // Puts a light into a group: its surface, which reflects nothing.
+    // Puts a light into a group: its surface, which has the material of the surface given, if any.
     template <std::size_t G>
     Surface add(const auto& shape, const glm::vec3& radiance, Surface surface = {}) {
         surface.light = std::get<G>(groups_).add(shape, radiance);
