@@ -1,11 +1,7 @@
 // A Cornell box: one rectangular light, a diffuse box and a glossy one.
 #pragma once
 
-#include "camera.hpp"
-#include "geometry.hpp"
-#include "lights.hpp"
-#include "material_table.hpp"
-#include "materials.hpp"
+#include "scene_parts.hpp"
 
 #include <glm/trigonometric.hpp>
 
@@ -14,11 +10,9 @@
 
 namespace tracer {
 
-class Cornell {
+class Cornell : public SceneParts<Materials<Diffuse<float>, Coated<float>>,
+                                  Lights<FewLights<lumis::Parallelogram, lumis::ByArea>>> {
   public:
-    using MaterialTable = Materials<Diffuse<float>, Coated<float>>;
-    using LightTable = Lights<FewLights<lumis::Parallelogram, lumis::ByArea>>;
-
     Cornell() {
         const Surface white = materials_.add(Diffuse<float>{glm::vec3{0.73f}});
         const Surface red = materials_.add(Diffuse<float>{{0.63f, 0.06f, 0.05f}});
@@ -39,9 +33,6 @@ class Cornell {
     }
 
     [[nodiscard]] static Camera camera() { return {{0, 0, 3.9f}, {0, 0, 0}, {0, 1, 0}, 39}; }
-    [[nodiscard]] const Geometry& geometry() const { return geometry_; }
-    [[nodiscard]] const MaterialTable& materials() const { return materials_; }
-    [[nodiscard]] const LightTable& lights() const { return lights_; }
 
   private:
     // A box that stands on the middle of its base, turned about the vertical.
@@ -54,10 +45,6 @@ class Cornell {
             geometry_.add(lumis::Parallelogram{from, along, y}, surface);
         }
     }
-
-    Geometry geometry_;
-    MaterialTable materials_;
-    LightTable lights_;
 };
 
 }  // namespace tracer

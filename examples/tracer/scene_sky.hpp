@@ -1,25 +1,19 @@
 // Spheres of rising roughness under an environment map: a mirror, four rough metals, chalk.
 #pragma once
 
-#include "camera.hpp"
 #include "environment.hpp"
-#include "geometry.hpp"
-#include "lights.hpp"
-#include "material_table.hpp"
-#include "materials.hpp"
+#include "scene_parts.hpp"
 
 #include <string>
 
 namespace tracer {
 
-class Sky {
+class Sky : public SceneParts<Materials<Diffuse<float>, Metal<float>, Mirror<float>>, Lights<Environment>> {
   public:
-    using MaterialTable = Materials<Diffuse<float>, Metal<float>, Mirror<float>>;
-    using LightTable = Lights<Environment>;
-
     // The environment map shipped, unless a file is named.
     explicit Sky(const std::string& file)
-        : lights_{Environment{read_image(file.empty() ? LUMIS_EXAMPLES_DATA "/venice_sunset_1k.hdr" : file)}} {
+        : SceneParts{
+              LightTable{Environment{read_image(file.empty() ? LUMIS_EXAMPLES_DATA "/venice_sunset_1k.hdr" : file)}}} {
         geometry_.add(lumis::Parallelogram{glm::vec3{-30, 0, -30}, glm::vec3{60, 0, 0}, glm::vec3{0, 0, 60}},
                       materials_.add(Diffuse<float>{glm::vec3{0.5f}}));
         add_ball(materials_.add(Mirror<float>{silver}));
@@ -29,9 +23,6 @@ class Sky {
     }
 
     [[nodiscard]] static Camera camera() { return {{0, 3.2f, 16}, {0, 1, 0}, {0, 1, 0}, 24}; }
-    [[nodiscard]] const Geometry& geometry() const { return geometry_; }
-    [[nodiscard]] const MaterialTable& materials() const { return materials_; }
-    [[nodiscard]] const LightTable& lights() const { return lights_; }
 
   private:
     // Six in a row, from left to right.
@@ -39,9 +30,6 @@ class Sky {
         geometry_.add(lumis::Sphere{glm::vec3{2.2f * static_cast<float>(balls_++) - 5.5f, 1, 0}, 1.0f}, surface);
     }
 
-    Geometry geometry_;
-    MaterialTable materials_;
-    LightTable lights_;
     int balls_ = 0;
 };
 

@@ -1,11 +1,7 @@
 // Veach's plates and spheres (Veach 1997, figure 9.2): four plates of rising roughness under lights of rising size.
 #pragma once
 
-#include "camera.hpp"
-#include "geometry.hpp"
-#include "lights.hpp"
-#include "material_table.hpp"
-#include "materials.hpp"
+#include "scene_parts.hpp"
 
 #include <array>
 
@@ -36,37 +32,28 @@ inline constexpr std::array<PlateOutline, 4> veach_plates{{
 
 // Plate: the material of the plates.
 template <class Plate>
-class Veach {
+class Veach : public SceneParts<Materials<Diffuse<float>, Plate>,
+                                Lights<FewLights<lumis::Sphere, lumis::BySolidAngle, veach_lights.size()>>> {
   public:
-    using MaterialTable = Materials<Diffuse<float>, Plate>;
-    using LightTable = Lights<FewLights<lumis::Sphere, lumis::BySolidAngle, veach_lights.size()>>;
-
     explicit Veach(auto plate_of_roughness) {
-        const Surface wall = materials_.add(Diffuse<float>{glm::vec3{0.4f}});
-        geometry_.add(lumis::Parallelogram{glm::vec3{-10, -4.14615f, -10}, glm::vec3{20, 0, 0}, glm::vec3{0, 0, 20}},
-                      wall);
-        geometry_.add(lumis::Parallelogram{glm::vec3{-10, -10, -2}, glm::vec3{20, 0, 0}, glm::vec3{0, 20, 0}}, wall);
+        const Surface wall = this->materials_.add(Diffuse<float>{glm::vec3{0.4f}});
+        this->geometry_.add(
+            lumis::Parallelogram{glm::vec3{-10, -4.14615f, -10}, glm::vec3{20, 0, 0}, glm::vec3{0, 0, 20}}, wall);
+        this->geometry_.add(lumis::Parallelogram{glm::vec3{-10, -10, -2}, glm::vec3{20, 0, 0}, glm::vec3{0, 20, 0}},
+                            wall);
         for (const PlateOutline& plate : veach_plates) {
             const glm::vec2 depth = plate.back - plate.front;
-            geometry_.add(lumis::Parallelogram{glm::vec3{-4, plate.front.x, plate.front.y}, glm::vec3{8, 0, 0},
-                                               glm::vec3{0, depth.x, depth.y}},
-                          materials_.add(plate_of_roughness(plate.alpha)));
+            this->geometry_.add(lumis::Parallelogram{glm::vec3{-4, plate.front.x, plate.front.y}, glm::vec3{8, 0, 0},
+                                                     glm::vec3{0, depth.x, depth.y}},
+                                this->materials_.add(plate_of_roughness(plate.alpha)));
         }
         for (const SphereLight& light : veach_lights) {
-            geometry_.add(light.shape, lights_.template add<0>(light.shape, glm::vec3{light.radiance}));
+            this->geometry_.add(light.shape, this->lights_.template add<0>(light.shape, glm::vec3{light.radiance}));
         }
-        geometry_.commit();
+        this->geometry_.commit();
     }
 
     [[nodiscard]] static Camera camera() { return {{0, 2, 15}, {0, -2, 2.5f}, {0, 1, 0}, 28}; }
-    [[nodiscard]] const Geometry& geometry() const { return geometry_; }
-    [[nodiscard]] const MaterialTable& materials() const { return materials_; }
-    [[nodiscard]] const LightTable& lights() const { return lights_; }
-
-  private:
-    Geometry geometry_;
-    MaterialTable materials_;
-    LightTable lights_;
 };
 
 }  // namespace tracer
