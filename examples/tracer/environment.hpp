@@ -17,6 +17,11 @@
 
 namespace tracer {
 
+// The image of a sky that is the same everywhere.
+[[nodiscard]] inline Image uniform_image(const glm::vec3& radiance) {
+    return {2, 1, {radiance, radiance}};
+}
+
 class Environment {
   public:
     static constexpr bool is_background = true;

@@ -9,7 +9,7 @@ namespace tracer {
 
 namespace {
 
-constexpr std::array<SceneEntry, 4> all_scenes{{
+constexpr std::array<SceneEntry, 6> all_scenes{{
     {"veach", "Veach's plates and spheres",
      "Four coated plates, the farthest the smoothest, reflect five sphere lights of falling size and rising radiance. "
      "Sampling the lights fails where a smooth plate mirrors a large light, sampling the BSDF where a rough one "
@@ -27,6 +27,12 @@ constexpr std::array<SceneEntry, 4> all_scenes{{
      "renderers have "
      "them.",
      768, 512, false, make_veach_metal},
+    {"box", "A closed room with a known answer",
+     "Every wall emits the same and reflects the same share: the radiance is emission / (1 - albedo) everywhere.", 256,
+     256, false, make_box},
+    {"furnace", "Objects that cannot be seen",
+     "Chalk, a mirror, glass and a glowing ball lose no light under a uniform sky: all of the image is 1.", 512, 256,
+     false, make_furnace},
 }};
 
 }  // namespace

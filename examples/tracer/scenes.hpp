@@ -11,5 +11,7 @@ namespace tracer {
 [[nodiscard]] std::unique_ptr<Renderer> make_veach_metal(const SceneOptions& options);
 [[nodiscard]] std::unique_ptr<Renderer> make_sky(const SceneOptions& options);
 [[nodiscard]] std::unique_ptr<Renderer> make_cornell(const SceneOptions& options);
+[[nodiscard]] std::unique_ptr<Renderer> make_box(const SceneOptions& options);
+[[nodiscard]] std::unique_ptr<Renderer> make_furnace(const SceneOptions& options);
 
 }  // namespace tracer

@@ -1,0 +1,12 @@
+#include "scene_furnace.hpp"
+
+#include "scene_renderer.hpp"
+#include "scenes.hpp"
+
+namespace tracer {
+
+std::unique_ptr<Renderer> make_furnace(const SceneOptions& options) {
+    return std::make_unique<SceneRenderer<Furnace>>(Furnace{}, options, Furnace::camera());
+}
+
+}  // namespace tracer

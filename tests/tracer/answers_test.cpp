@@ -1,0 +1,120 @@
+// Scenes with known answers: images differ from them by chance alone, of the size that the images report themselves.
+#include "catch.hpp"
+#include "renderer.hpp"
+#include "scene_box.hpp"
+#include "scene_cornell.hpp"
+#include "scene_furnace.hpp"
+#include "scene_renderer.hpp"
+#include <lumis/testing/result.hpp>
+
+#include <boost/math/distributions/normal.hpp>
+
+#include <cmath>
+#include <string>
+
+namespace {
+
+using namespace tracer;
+
+constexpr int width = 24, height = 16, block = 8;
+
+// A bias of 0.5 % of the whole image would fail.
+constexpr double visible_bias = 0.005;
+
+// False alarms: 1e-4 over all blocks, channels, integrators and samplers of a scene (Sidak).
+double limit_of_scene() {
+    constexpr std::size_t blocks = (width / block) * (height / block) + 1;
+    const lumis::testing::Significance significance{1e-4, 3 * blocks * integrator_names().size() * samplers.size()};
+    return quantile(complement(boost::math::normal_distribution<double>{}, significance.threshold() / 2));
+}
+
+// A sum of pixels, and of what they should be.
+struct Total {
+    glm::dvec3 value{0}, answer{0}, variance{0};
+
+    void add(const Pixel& pixel, const glm::dvec3& its_answer) {
+        value += pixel.mean();
+        answer += its_answer;
+        variance += pixel.variance();
+    }
+};
+
+void require_answer(const Renderer& renderer, int bounces, int samples, const auto& answer_at) {
+    constexpr int passes = 8;
+    const double limit = limit_of_scene();
+    for (const auto& [sampler_name, sampler] : samplers) {
+        for (const std::string_view integrator : integrator_names()) {
+            INFO(sampler_name << ", " << integrator);
+            // The one-sample model ends a path, or goes on without light: few paths are long, and count much.
+            const int enough = integrator == "one-sample" ? 4 * samples : samples;
+            Film film{width, height};
+            for (std::uint64_t pass = 0; pass < passes; ++pass) {
+                renderer.add_pass(film, integrator, {bounces, sampler, Filter::Box}, enough, 1, pass);
+            }
+            std::vector<Total> blocks((width / block) * (height / block));
+            Total whole;
+            for (int i = 0; i < width * height; ++i) {
+                const Pixel& pixel = film.pixels[static_cast<std::size_t>(i)];
+                const glm::dvec3 answer = answer_at(i % width, i / width);
+                const int at = i / width / block * (width / block) + i % width / block;
+                blocks[static_cast<std::size_t>(at)].add(pixel, answer);
+                whole.add(pixel, answer);
+            }
+            blocks.push_back(whole);
+            for (std::size_t b = 0; b < blocks.size(); ++b) {
+                for (int k = 0; k < 3; ++k) {
+                    const double value = blocks[b].value[k], answer = blocks[b].answer[k],
+                                 error = std::sqrt(blocks[b].variance[k]);
+                    INFO("block " << b << ", channel " << k << ": " << value << " +- " << error << ", not " << answer);
+                    CHECK(std::abs(value - answer) <= limit * error + 1e-5 * answer);
+                }
+            }
+            for (int k = 0; k < 3; ++k) {
+                CHECK(limit * std::sqrt(whole.variance[k]) <= visible_bias * whole.answer[k]);
+            }
+        }
+    }
+}
+
+// The share of pixels that are the same in both, up to rounding.
+double share_alike(const Film& a, const Film& b) {
+    std::size_t alike = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        const glm::dvec3 x = a.pixels[i].mean(), y = b.pixels[i].mean();
+        alike += glm::length(x - y) <= 1e-4 * glm::length(x);
+    }
+    return static_cast<double>(alike) / static_cast<double>(a.pixels.size());
+}
+
+}  // namespace
+
+TEST_CASE("a room of one material has the same radiance everywhere") {
+    const auto renderer = find_scene("box")->make({width, height, {}});
+    for (const int bounces : {0, 4}) {
+        CAPTURE(bounces);
+        require_answer(*renderer, bounces, 64, [&](int, int) { return Box::radiance(bounces); });
+    }
+}
+
+TEST_CASE("what loses no light is not seen") {
+    // Less than a millionth of what is seen in the glass goes to and fro for longer.
+    constexpr int bounces = 64;
+    const auto renderer = find_scene("furnace")->make({width, height, {}});
+    require_answer(*renderer, bounces, 96, [](int, int) { return glm::dvec3{Furnace::radiance}; });
+}
+
+// Sobol points of a sample do not depend on how many are traced at once. Rays that pass an edge by a rounding may differ.
+// The one-sample model spends points on lights if any sample of the packet asks them: its samples differ.
+TEST_CASE("samples in lanes are what they are alone") {
+    const SceneOptions options{width, height, {}};
+    const SceneRenderer<Cornell, float> alone{Cornell{}, options, Cornell::camera()};
+    const auto in_lanes = find_scene("cornell")->make(options);
+    for (const std::string_view integrator : integrator_names()) {
+        if (integrator == "one-sample") continue;
+        INFO(integrator);
+        Film one{width, height}, other{width, height};
+        alone.add_pass(one, integrator, {}, 8, 1, 0);
+        in_lanes->add_pass(other, integrator, {}, 8, 1, 0);
+        CHECK(share_alike(one, other) >= 0.98);
+    }
+}
