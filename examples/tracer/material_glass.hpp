@@ -22,7 +22,8 @@ struct RoughGlass {
     using In = RoughGlass<S>;
     static constexpr bool is_delta = false, transmits = true;
 
-    struct Bsdf : lumis::GgxDielectric<R> {
+    using Lobes = lumis::GgxDielectric<R>;
+    struct Bsdf : Lobes {
         [[nodiscard]] LUMIS_INLINE Scattering<R> evaluate(const glm::vec<3, R>& wi) const {
             const R pdf = this->pdf(wi);
             return {glm::vec<3, R>{lumis::density_or_zero(R(this->weight(wi) * pdf))}, pdf};
@@ -44,9 +45,10 @@ struct SmoothGlass {
     using In = SmoothGlass<S>;
     static constexpr bool is_delta = true, transmits = true;
 
-    struct Bsdf : lumis::SmoothDielectric<R> {
+    using Lobes = lumis::SmoothDielectric<R>;
+    struct Bsdf : Lobes {
         [[nodiscard]] LUMIS_INLINE glm::vec<3, R> coefficient(const glm::vec<3, R>& wi) const {
-            return glm::vec<3, R>{lumis::SmoothDielectric<R>::coefficient(wi)};
+            return glm::vec<3, R>{Lobes::coefficient(wi)};
         }
     };
     [[nodiscard]] LUMIS_INLINE Bsdf strategy(const glm::vec<3, R>& wo) const { return {{wo, index}}; }

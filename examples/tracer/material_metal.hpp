@@ -42,7 +42,8 @@ struct Metal {
     using In = Metal<S, Reflectance>;
     static constexpr bool is_delta = false, transmits = false;
 
-    struct Bsdf : lumis::GgxReflection<R> {
+    using Lobes = lumis::GgxReflection<R>;
+    struct Bsdf : Lobes {
         Reflectance<R> surface;
         glm::vec<3, R> wo;
 
@@ -68,6 +69,7 @@ struct Compensated {
     using In = Compensated<typename M::template In<S>>;
     static constexpr bool is_delta = false, transmits = false;
 
+    using Lobes = typename M::Lobes;
     struct Bsdf : M::Bsdf {
         glm::vec<3, Scalar> gain;
 
@@ -95,13 +97,14 @@ struct Mirror {
     using In = Mirror<S, Reflectance>;
     static constexpr bool is_delta = true, transmits = false;
 
-    struct Bsdf : lumis::PerfectReflection<R> {
+    using Lobes = lumis::PerfectReflection<R>;
+    struct Bsdf : Lobes {
         glm::vec<3, R> color;
 
         [[nodiscard]] LUMIS_INLINE glm::vec<3, R> coefficient(const glm::vec<3, R>& /*wi*/) const { return color; }
     };
     [[nodiscard]] LUMIS_INLINE Bsdf strategy(const glm::vec<3, R>& wo) const {
-        return {lumis::PerfectReflection<R>{wo}, finite_where(wo.z > 0, surface.reflectance(wo.z))};
+        return {Lobes{wo}, finite_where(wo.z > 0, surface.reflectance(wo.z))};
     }
     [[nodiscard]] LUMIS_INLINE glm::vec<3, R> albedo_seen(const glm::vec<3, R>& wo) const {
         return surface.reflectance(wo.z);

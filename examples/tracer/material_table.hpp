@@ -26,9 +26,9 @@ class Materials {
     // Uniforms that sample any of the kinds.
     static constexpr int dimensions = std::max({decltype(std::declval<Kinds>().strategy(glm::vec3{}))::dimensions...});
 
-    // The strategy of each kind, by its type.
+    // What each kind samples: "Diffuse: CosineHemisphere".
     [[nodiscard]] static std::vector<std::string> strategies() {
-        return {type_name<Kinds>() + ": " + type_name<decltype(std::declval<Kinds>().strategy(glm::vec3{}))>()...};
+        return {type_name<Kinds>() + ": " + type_name<typename Kinds::Lobes>()...};
     }
 
     // The surface that a material makes.
@@ -42,6 +42,12 @@ class Materials {
         surface.kind = static_cast<std::uint32_t>(kind);
         surface.material = static_cast<std::uint32_t>(table.size() - 1);
         return surface;
+    }
+
+    // All of one kind, in the order in which they were added.
+    template <class Kind>
+    [[nodiscard]] const std::vector<Kind>& of_kind() const {
+        return std::get<std::vector<Kind>>(tables_);
     }
 
     // visit(material, mask) for each kind that occurs in the lanes asked for, with each lane's own material. Lanes of

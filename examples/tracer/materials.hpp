@@ -4,6 +4,7 @@
 //
 //   is_delta               it scatters into single directions: no light is asked
 //   transmits              it scatters to both sides: +z is outside, and wo may be below; otherwise +z is wo's side
+//   Lobes                  the strategy of the library that its BSDF is made of, for those who ask what a scene consists of
 //   strategy(wo)           its BSDF as seen from wo, a strategy that draws wi. All that depends on wo alone is formed here
 //     .evaluate(wi)        what is scattered from wi to wo, and the density of wi, which share work: see Scattering
 //     .coefficient(wi)     instead, if it is a delta strategy: multiply a path's throughput by it, and divide by the pdf
@@ -34,7 +35,8 @@ struct Diffuse {
     using In = Diffuse<S>;
     static constexpr bool is_delta = false, transmits = false;
 
-    struct Bsdf : lumis::CosineHemisphere<R> {
+    using Lobes = lumis::CosineHemisphere<R>;
+    struct Bsdf : Lobes {
         glm::vec<3, R> albedo;
 
         [[nodiscard]] LUMIS_INLINE Scattering<R> evaluate(const glm::vec<3, R>& wi) const {

@@ -14,7 +14,7 @@ template <class T>
 [[nodiscard]] std::string type_name() {
     const std::string full = boost::core::demangle(typeid(T).name());
     const std::string short_names =
-        std::regex_replace(full, std::regex{"lumis::([a-z0-9_]+::)*|tracer::|<float>| const|&"}, "");
+        std::regex_replace(full, std::regex{"lumis::([a-z0-9_]+::)*|tracer::|<float>|float, | const|&"}, "");
     return std::regex_replace(short_names, std::regex{" +>"}, ">");
 }
 
