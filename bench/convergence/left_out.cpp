@@ -1,5 +1,7 @@
 #include "left_out.hpp"
 
+#include "packet.hpp"
+#include "render_study.hpp"
 #include <lumis/statistics/error_metrics.hpp>
 
 #if __has_include(<valgrind/callgrind.h>)
@@ -22,29 +24,21 @@ namespace {
 
 using tracer::Film;
 
-// By the names of their types, as tracer::type_name writes them.
-constexpr std::array<std::string_view, 7> all_strategies{
-    "CosineHemisphere",        "GgxReflection",    "Mixture",       "PerfectReflection",
-    "AreaLight<Parallelogram", "AreaLight<Sphere", "EnvironmentMap"};
-constexpr std::array<std::string_view, 4> all_materials{"Diffuse", "Coated", "Metal", "Mirror"};
-
-// Those that occur in none of the estimators' types.
-std::vector<std::string> missing(std::span<const std::string_view> all, const std::vector<std::string>& estimators,
-                                 bool at_start) {
-    std::vector<std::string> result;
-    for (const std::string_view name : all) {
-        const bool found = std::ranges::any_of(estimators, [&](const std::string& estimator) {
-            return at_start ? estimator.starts_with(std::string{name} + ":")
-                            : estimator.find(name) != std::string::npos;
-        });
-        if (found) continue;
-        result.emplace_back(name);
-        if (name.find('<') != std::string_view::npos) result.back() += '>';
+// What only `everything` consists of. A line of strategies() is "kind: strategy", the kind that of a material or "light".
+void list_missing(LeftOut& result, const std::vector<std::string>& composed,
+                  const std::vector<std::string>& everything) {
+    const auto occurs = [&](const std::string& part) {
+        return std::ranges::any_of(composed, [&](const std::string& line) { return line.find(part) != line.npos; });
+    };
+    for (const std::string& line : everything) {
+        const std::size_t colon = line.find(": ");
+        const std::string kind = line.substr(0, colon), strategy = line.substr(colon + 2);
+        if (!occurs(strategy)) result.strategies.push_back(strategy);
+        if (kind != "light" && !occurs(kind + ": ")) result.materials.push_back(kind);
     }
-    return result;
 }
 
-constexpr int counted_width = 48, counted_height = 32, counted_samples = 2;
+constexpr int counted_width = 48, counted_height = 32, counted_samples = 8;
 
 // The instructions that callgrind counts in this program, between the marks of render_for_instructions.
 std::optional<double> instructions_per_sample(const std::string& scene, const std::string& variant) {
@@ -64,6 +58,13 @@ std::optional<double> instructions_per_sample(const std::string& scene, const st
     return collected / (counted_width * counted_height * counted_samples);
 }
 
+// The error is brought to equal time, for which random numbers are needed: it falls with their number as theory says.
+tracer::RenderOptions counted_options(const std::string& scene) {
+    tracer::RenderOptions options = render_options(scene);
+    options.sampler = tracer::Sampler::Random;
+    return options;
+}
+
 std::unique_ptr<tracer::Renderer> make(const std::string& scene, const std::string& variant,
                                        const tracer::SceneOptions& options) {
     if (variant == "everything") return make_with_everything(scene, options);
@@ -72,29 +73,32 @@ std::unique_ptr<tracer::Renderer> make(const std::string& scene, const std::stri
 
 }  // namespace
 
-LeftOut left_out(const std::string& scene, const tracer::Renderer& composed, const tracer::SceneOptions& options,
-                 const ReferenceImage& reference, const std::vector<std::uint64_t>& seeds, double seconds,
-                 const Progress& progress) {
-    const std::vector<std::string> estimators = composed.strategies("power");
-    LeftOut result{
-        missing(all_strategies, estimators, false), missing(all_materials, estimators, true), {}, {}, seconds, {}};
+std::optional<LeftOut> left_out(const std::string& scene, const tracer::Renderer& composed,
+                                const tracer::SceneOptions& options, const ReferenceImage& reference,
+                                const std::vector<std::uint64_t>& seeds, double seconds, const Progress& progress) {
     const auto everything = make_with_everything(scene, options);
+    if (!everything) return {};
+    const tracer::RenderOptions rendering = counted_options(scene);
+    LeftOut result{};
+    result.seconds = seconds;
+    list_missing(result, composed.strategies(), everything->strategies());
     struct Runner {
         const tracer::Renderer& renderer;
         Variant& variant;
         int samples;
     };
+    constexpr int width = static_cast<int>(tracer::lanes<tracer::Packet>);
     std::array runners{Runner{composed, result.composed, 0}, Runner{*everything, result.everything, 0}};
     for (Runner& runner : runners) {
         Film trial{options.width, options.height};
-        const double taken = runner.renderer.add_pass(trial, "power", 2, 0, 0);
-        runner.samples = std::max(2, static_cast<int>(2 * seconds / taken));
+        const double taken = runner.renderer.add_pass(trial, "power", rendering, width, 0, 0);
+        runner.samples = width * std::max(1, static_cast<int>(seconds / taken));
     }
     for (const std::uint64_t seed : seeds) {
         for (const Runner& runner : runners) {
             progress(scene + (&runner == &runners[0] ? ", composed" : ", with everything in"));
             Film film{options.width, options.height};
-            const double taken = runner.renderer.add_pass(film, "power", runner.samples, seed, 0);
+            const double taken = runner.renderer.add_pass(film, "power", rendering, runner.samples, seed, 0);
             const double pixels = static_cast<double>(film.pixels.size());
             runner.variant.seconds_per_sample.add(taken / (pixels * runner.samples));
             const tracer::Image image = film.image();
@@ -117,14 +121,13 @@ LeftOut left_out(const std::string& scene, const tracer::Renderer& composed, con
 
 void render_for_instructions(const std::string& scene, const std::string& variant, int samples) {
     const auto renderer = make(scene, variant, {counted_width, counted_height, {}});
+    const tracer::RenderOptions rendering = counted_options(scene);
     Film film{counted_width, counted_height};
-    renderer->add_pass(film, "power", 1, 1, 0);  // threads and tables are there from now on
+    renderer->add_pass(film, "power", rendering, samples, 1, 0);  // threads and tables are there from now on
 #ifdef LUMIS_CALLGRIND
     CALLGRIND_START_INSTRUMENTATION;
-    renderer->add_pass(film, "power", samples, 1, 1);
+    renderer->add_pass(film, "power", rendering, samples, 1, 1);
     CALLGRIND_STOP_INSTRUMENTATION;
-#else
-    static_cast<void>(samples);
 #endif
 }
 

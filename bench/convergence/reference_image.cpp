@@ -23,13 +23,13 @@ std::int64_t count_not_finite(const Image& image) {
 
 namespace {
 
-Image render(const tracer::Renderer& renderer, int width, int height, int samples, const char* integrator,
-             std::uint64_t seed, const std::string& name, const Progress& progress) {
-    constexpr int passes = 8;
+Image render(const tracer::Renderer& renderer, const tracer::RenderOptions& options, int width, int height, int samples,
+             const char* integrator, std::uint64_t seed, const std::string& name, const Progress& progress) {
+    constexpr int longest_pass = 128;  // a few seconds; the longer, the evener its points
     tracer::Film film{width, height};
-    for (int pass = 0; pass < passes; ++pass) {
+    for (std::uint64_t pass = 0; film.samples() < samples; ++pass) {
         progress(name + ", reference by " + integrator);
-        renderer.add_pass(film, integrator, (samples + passes - 1) / passes, seed, static_cast<std::uint64_t>(pass));
+        renderer.add_pass(film, integrator, options, std::min(longest_pass, samples - film.samples()), seed, pass);
     }
     return film.image();
 }
@@ -60,8 +60,9 @@ std::span<const float> values(const Image& image) {
     return {&image.pixels.front().x, 3 * image.pixels.size()};
 }
 
-ReferenceImage reference_image(const tracer::Renderer& renderer, int width, int height, int samples,
-                               const std::filesystem::path& folder, const std::string& name, const Progress& progress) {
+ReferenceImage reference_image(const tracer::Renderer& renderer, const tracer::RenderOptions& options, int width,
+                               int height, int samples, const std::filesystem::path& folder, const std::string& name,
+                               const Progress& progress) {
     std::filesystem::create_directories(folder);
     const std::array integrators{"power", "balance"};
     std::array<Image, 2> images;
@@ -72,7 +73,7 @@ ReferenceImage reference_image(const tracer::Renderer& renderer, int width, int 
                                     std::to_string(width) + "x" + std::to_string(height) + ".exr");
         if (!newer_than_program(file)) {
             tracer::write_image(file.string(),
-                                render(renderer, width, height, samples, integrator, seed, name, progress));
+                                render(renderer, options, width, height, samples, integrator, seed, name, progress));
         }
         images[i] = tracer::read_image(file.string());
         check(images[i], name, integrator);

@@ -28,9 +28,10 @@ struct ReferenceImage {
 // The mean of two images by two integrators, power and balance. They share no sample, so that half their difference
 // tells the error of their mean. Throws std::runtime_error if they do not agree within their errors,
 // are not finite everywhere, or black. One that is kept
-// under `name` is used again unless the program has been built anew since.
-[[nodiscard]] ReferenceImage reference_image(const tracer::Renderer& renderer, int width, int height, int samples,
-                                             const std::filesystem::path& folder, const std::string& name,
-                                             const Progress& progress);
+// under `name` is used again unless the program has been built anew since. Points are Sobol's, scrambled anew for each pixel,
+// so that pixels are independent.
+[[nodiscard]] ReferenceImage reference_image(const tracer::Renderer& renderer, const tracer::RenderOptions& options,
+                                             int width, int height, int samples, const std::filesystem::path& folder,
+                                             const std::string& name, const Progress& progress);
 
 }  // namespace convergence

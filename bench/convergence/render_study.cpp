@@ -1,8 +1,10 @@
 #include "render_study.hpp"
 
 #include "error_image.hpp"
+#include "fireflies.hpp"
 #include "image.hpp"
 #include "left_out.hpp"
+#include "packet.hpp"
 #include "reference_image.hpp"
 #include "renderer.hpp"
 #include <lumis/statistics/error_metrics.hpp>
@@ -10,6 +12,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <string_view>
+#include <tuple>
+#include <utility>
 
 namespace convergence {
 
@@ -18,16 +23,27 @@ namespace {
 using tracer::Film;
 using tracer::Image;
 
-// One integrator's run to growing sample counts.
+// An estimator of images, and how its error falls.
+struct Estimator {
+    std::string_view integrator;
+    tracer::RenderOptions options;
+    bool is_whole;  // its samples are the points of one set: a run of another length starts anew
+};
+
+// One estimator's run to growing sample counts.
 class Run {
   public:
-    Run(const tracer::Renderer& renderer, std::string_view integrator, std::uint64_t seed, int width, int height)
-        : renderer_{renderer}, integrator_{integrator}, seed_{seed}, film_{width, height} {}
+    Run(const tracer::Renderer& renderer, const Estimator& estimator, std::uint64_t seed, int width, int height)
+        : renderer_{renderer}, estimator_{estimator}, seed_{seed}, film_{width, height} {}
 
     void advance_to(std::int64_t samples) {
+        if (estimator_.is_whole) {
+            film_ = Film{film_.width, film_.height};
+            cpu_seconds_ = wall_seconds_ = 0;
+        }
         const auto start = std::chrono::steady_clock::now();
-        cpu_seconds_ +=
-            renderer_.add_pass(film_, integrator_, static_cast<int>(samples) - film_.samples(), seed_, pass_++);
+        cpu_seconds_ += renderer_.add_pass(film_, estimator_.integrator, estimator_.options,
+                                           static_cast<int>(samples) - film_.samples(), seed_, pass_++);
         wall_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
 
@@ -38,32 +54,12 @@ class Run {
 
   private:
     const tracer::Renderer& renderer_;
-    std::string_view integrator_;
+    const Estimator& estimator_;
     std::uint64_t seed_;
     Film film_;
     std::uint64_t pass_ = 0;
     double cpu_seconds_ = 0, wall_seconds_ = 0;
 };
-
-// Lone pixels shown in white where the reference and all their neighbours are shown in less than half of it.
-int count_fireflies(const Image& image, const Image& reference) {
-    const auto shown = [](const Image& from, int x, int y) {
-        if (x < 0 || y < 0 || x >= from.width || y >= from.height) return 0.0f;
-        return std::min(tracer::luminance(from.pixels[static_cast<std::size_t>(y * from.width + x)]), 1.0f);
-    };
-    int count = 0;
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            float expected = shown(reference, x, y);
-            for (const auto& [right, down] :
-                 {std::pair{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}) {
-                expected = std::max(expected, shown(image, x + right, y + down));
-            }
-            count += shown(image, x, y) == 1 && expected < 0.5f;
-        }
-    }
-    return count;
-}
 
 // For further computation, and for the eye, to which a pixel that is not finite is magenta.
 std::string write(const std::filesystem::path& folder, const std::string& stem, Image image) {
@@ -88,14 +84,46 @@ Measurement measure(const Run& run, const Image& image, const ReferenceImage& re
             lumis::relative_mean_squared_error(estimate, truth, reference.floor) - reference.relative_squared_error};
 }
 
-// Counts and probabilities depend on how many lights have risen.
+// Counts and probabilities are those of the scene's types: as many samples as it has techniques, or one of two halves.
 Recipe recipe(const std::string& integrator) {
     if (integrator == "bsdf" || integrator == "light") return {"alone"};
     if (integrator == "one-sample") return {"one-sample", "balance"};
     return {"multi-sample", integrator};
 }
 
+// All integrators with random numbers, which makes them comparable, and power once more with Sobol's points.
+std::pair<std::vector<Series>, std::vector<Estimator>> contestants(tracer::RenderOptions options) {
+    std::pair<std::vector<Series>, std::vector<Estimator>> result;
+    const auto enter = [&](std::string name, std::string_view integrator, tracer::Sampler sampler, bool is_whole) {
+        options.sampler = sampler;
+        result.second.push_back({integrator, options, is_whole});
+        Series& series = result.first.emplace_back();
+        series.name = std::move(name);
+        series.is_whole = is_whole;
+        series.recipe = is_whole ? Recipe{"sobol", "power"} : recipe(series.name);
+    };
+    for (const auto integrator : tracer::integrator_names()) {
+        enter(std::string{integrator}, integrator, tracer::Sampler::Random, false);
+    }
+    enter("sobol", "power", tracer::Sampler::Sobol, true);
+    return result;
+}
+
+// Sample counts from a packet's width on, each double the one before, as far as the time goes; two at least.
+std::vector<std::int64_t> doubling_within(std::int64_t affordable) {
+    constexpr std::int64_t fewest = tracer::lanes<tracer::Packet>;
+    std::vector<std::int64_t> counts{fewest, 2 * fewest};
+    while (2 * counts.back() <= affordable) counts.push_back(2 * counts.back());
+    return counts;
+}
+
 }  // namespace
+
+tracer::RenderOptions render_options(std::string_view scene) {
+    tracer::RenderOptions options;
+    if (scene == "veach" || scene == "veach-metal" || scene == "sky") options.bounces = 1;
+    return options;
+}
 
 Study render_study(const std::string& scene_name, const std::vector<std::uint64_t>& seeds,
                    const RenderSettings& settings, const Progress& progress) {
@@ -110,10 +138,14 @@ Study render_study(const std::string& scene_name, const std::vector<std::uint64_
     study.width = scene.width * settings.width / tracer::widest_scene();
     const tracer::SceneOptions options{study.width, study.height, settings.environment};
     const auto renderer = scene.make(options);
-    study.strategies = renderer->strategies("power");
+    study.strategies = renderer->strategies();
+    const tracer::RenderOptions rendering = render_options(scene_name);
+    study.description += rendering.bounces == 1 ? " Direct light."
+                                                : " Paths of up to " + std::to_string(rendering.bounces) + " bounces.";
 
-    const ReferenceImage reference = reference_image(*renderer, study.width, study.height, settings.reference_samples,
-                                                     settings.references, study.name, progress);
+    const ReferenceImage reference =
+        reference_image(*renderer, rendering, study.width, study.height, settings.reference_samples,
+                        settings.references, study.name, progress);
     study.reference = {"mean of power and balance, " + std::to_string(settings.reference_samples) + " samples each",
                        {},
                        reference.squared_error,
@@ -122,14 +154,14 @@ Study render_study(const std::string& scene_name, const std::vector<std::uint64_
                        reference.agreement};
 
     // A first run finds how many samples fit in the time, and warms the machine up.
-    for (const auto integrator : tracer::integrator_names) {
-        Run trial{*renderer, integrator, 0, study.width, study.height};
-        for (std::int64_t samples = 1; samples <= 2; ++samples) trial.advance_to(samples);
-        const auto affordable = static_cast<std::int64_t>(2 * settings.seconds / trial.cpu_seconds());
-        Series& series = study.series.emplace_back();
-        series.name = integrator;
-        series.recipe = recipe(series.name);
-        series.samples = doubling_up_to(std::max(affordable, std::int64_t{2}));
+    std::vector<Estimator> estimators;
+    std::tie(study.series, estimators) = contestants(rendering);
+    for (std::size_t i = 0; i < estimators.size(); ++i) {
+        Run trial{*renderer, estimators[i], 0, study.width, study.height};
+        trial.advance_to(tracer::lanes<tracer::Packet>);
+        const double affordable = settings.seconds / trial.cpu_seconds() * tracer::lanes<tracer::Packet>;
+        Series& series = study.series[i];
+        series.samples = doubling_within(static_cast<std::int64_t>(affordable));
         series.runs_per_seed.assign(series.samples.size(), 1);
     }
     // All integrators take turns, so that a drift of the machine's speed hits all alike.
@@ -139,7 +171,7 @@ Study render_study(const std::string& scene_name, const std::vector<std::uint64_
         for (std::size_t i = 0; i < study.series.size(); ++i) {
             Series& series = study.series[i];
             progress(study.name + ", " + series.name);
-            Run run{*renderer, series.name, seed, study.width, study.height};
+            Run run{*renderer, estimators[i], seed, study.width, study.height};
             std::vector<Measurement> measurements;
             for (const std::int64_t samples : series.samples) {
                 run.advance_to(samples);

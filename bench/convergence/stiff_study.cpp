@@ -1,6 +1,5 @@
 #include "stiff_study.hpp"
 
-#include "integrators.hpp"
 #include "near_mirror.hpp"
 #include "random_stream.hpp"
 #include "thread_clock.hpp"
@@ -8,7 +7,6 @@
 
 #include <cstdio>
 #include <numbers>
-#include <type_traits>
 
 namespace convergence {
 
@@ -41,39 +39,37 @@ StiffCell measure(const Estimator& estimator, const F& f, double answer, int run
     return {std::sqrt(squares.mean()), errors.mean() / errors.standard_error(), not_finite};
 }
 
-// All integrators on one case.
-template <class Light, class... Integrators>
-std::vector<StiffCell> measure_all(float alpha, const Light& light, double answer, int runs, double seconds,
-                                   std::type_identity<std::tuple<Integrators...>>) {
+// All estimators of one BSDF and one light, in the order of `names`.
+std::vector<StiffCell> measure_all(float alpha, const auto& light, double answer, int runs, double seconds) {
     const glm::vec3 wo = viewer<float>();
     const lumis::GgxReflection<float> bsdf{wo, glm::vec2{alpha}};
-    const tracer::Light<Light> risen{light, true};
     // The light shines with radiance 1, so what it does not cover reflects nothing.
     const auto f = [&](const glm::vec3& wi) {
         return wi.z > 0 && light.pdf(wi) > 0 ? bsdf.ggx().brdf(wo, wi) * wi.z : 0.0f;
     };
-    return {measure(Integrators::compose(bsdf, risen), f, answer, runs, seconds)...};
+    const auto by_bsdf = lumis::take(1, bsdf), by_light = lumis::take(1, light);
+    const auto measured = [&](const auto& estimator) { return measure(estimator, f, answer, runs, seconds); };
+    return {measured(multi_sample(lumis::BalanceHeuristic{}, by_bsdf)),
+            measured(multi_sample(lumis::BalanceHeuristic{}, by_light)),
+            measured(multi_sample(lumis::BalanceHeuristic{}, by_bsdf, by_light)),
+            measured(multi_sample(lumis::PowerHeuristic{}, by_bsdf, by_light)),
+            measured(one_sample(lumis::BalanceHeuristic{}, lumis::choose(0.5f, bsdf), lumis::choose(0.5f, light))),
+            measured(multi_sample(lumis::EqualWeights{}, by_bsdf, by_light))};
 }
 
-using tracer::AllIntegrators;
-
-template <class... Integrators>
-std::vector<std::string> names(std::type_identity<std::tuple<Integrators...>>) {
-    return {std::string{Integrators::name}...};
-}
+const std::vector<std::string> names{"bsdf", "light", "balance", "power", "one-sample", "average"};
 
 std::vector<StiffCell> measure_case(double alpha, double solid_angle, int runs, double seconds) {
-    constexpr std::type_identity<AllIntegrators> all;
     const auto roughness = static_cast<float>(alpha);
     if (solid_angle == hemisphere) {
         return measure_all(roughness, lumis::UniformHemisphere<float>{}, reflected_hemisphere(alpha).value, runs,
-                           seconds, all);
+                           seconds);
     }
     // A sphere at distance 1 whose radius is the sine of the cone's half-angle.
     const double versine = solid_angle / hemisphere;
     const auto radius = static_cast<float>(lumis::sine_of_versine(versine));
     const AreaLight<lumis::Sphere<float>, BySolidAngle> light{{mirrored<float>(), radius}, glm::vec3{0}};
-    return measure_all(roughness, light, reflected_cone(alpha, light.solid_angle()).value, runs, seconds, all);
+    return measure_all(roughness, light, reflected_cone(alpha, light.solid_angle()).value, runs, seconds);
 }
 
 }  // namespace
@@ -90,12 +86,8 @@ double StiffStudy::worst_error(std::size_t integrator) const {
 }
 
 StiffStudy stiff_study(int runs, double seconds, const Progress& progress) {
-    StiffStudy study{{0.1, 0.01, 0.001, lumis::ggx_min_alpha},
-                     {1e-6, 1e-4, 1e-2, 1, hemisphere},
-                     seconds,
-                     runs,
-                     names(std::type_identity<AllIntegrators>{}),
-                     {}};
+    StiffStudy study{
+        {0.1, 0.01, 0.001, lumis::ggx_min_alpha}, {1e-6, 1e-4, 1e-2, 1, hemisphere}, seconds, runs, names, {}};
     study.cells.assign(study.integrators.size(), std::vector<std::vector<StiffCell>>(study.alphas.size()));
     for (std::size_t a = 0; a < study.alphas.size(); ++a) {
         for (const double solid_angle : study.solid_angles) {

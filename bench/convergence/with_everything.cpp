@@ -5,15 +5,14 @@
 #include "scene_sky.hpp"
 #include "scene_veach.hpp"
 
-#include <stdexcept>
-
 namespace convergence {
 
 std::unique_ptr<tracer::Renderer> make_with_everything(const std::string& scene, const tracer::SceneOptions& options) {
-    if (scene == "veach") return with_everything(tracer::Veach{}, options);
-    if (scene == "sky") return with_everything(tracer::Sky{options.environment}, options);
-    if (scene == "cornell") return with_everything(tracer::Cornell{}, options);
-    throw std::invalid_argument("no scene " + scene + " with everything in");
+    if (scene == "veach")
+        return render_with_everything(tracer::Veach<tracer::Coated<float>>{tracer::coated_plate}, options);
+    if (scene == "sky") return render_with_everything(tracer::Sky{options.environment}, options);
+    if (scene == "cornell") return render_with_everything(tracer::Cornell{}, options);
+    return nullptr;
 }
 
 }  // namespace convergence

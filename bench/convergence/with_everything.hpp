@@ -1,136 +1,138 @@
-// A scene with everything in: one material that holds every lobe, every kind of light, and what the scene does not use
-// left to run time with count or probability 0. It is what a renderer that composes nothing carries along.
+// A scene with everything in: its types have every kind of material and of light that the tracer knows, and only at run time
+// turns out that the scene has no such thing. It is what a renderer that composes nothing carries along.
 #pragma once
 
-#include "direct_light.hpp"
+#include "environment.hpp"
 #include "scene_renderer.hpp"
 
-#include <algorithm>
 #include <concepts>
-#include <span>
+#include <cstddef>
+#include <memory>
+#include <optional>
 #include <tuple>
 #include <type_traits>
 #include <utility>
-#include <variant>
-#include <vector>
 
 namespace tracer {
 
-// A diffuse base, and over it a glossy lobe, coat or metal; or a mirror. What is absent is black.
-struct Everything {
-    Diffuse base{vec3{0}};
-    Coated coat{vec3{0}, 1, 0};  // there if its index is not 0
-    Metal metal{vec3{0}, 1};     // there if its color is not black
-    Mirror mirror{vec3{0}};
+// A group of lights that the scene does not have. The type is compiled in, and asked at run time.
+template <class Group>
+class Absent {
+  public:
+    static constexpr bool is_background = Group::is_background;
+    static constexpr std::size_t samples = Group::samples;
+    using Strategy = typename Group::Strategy;
 
-    Everything() = default;
-    explicit Everything(const Diffuse& diffuse) : base{diffuse} {}
-    explicit Everything(const Coated& coated) : coat{coated} {}
-    explicit Everything(const Metal& rough) : metal{rough} {}
-    explicit Everything(const Mirror& smooth) : mirror{smooth} {}
-
-    [[nodiscard]] bool is_mirror() const { return mirror.color != vec3{0}; }
-
-    [[nodiscard]] auto strategy(const vec3& wo) const {
-        const vec3 albedo = base.albedo + coat.albedo;
-        const float diffuse = std::max({albedo.r, albedo.g, albedo.b});
-        const bool coated = coat.index > 0;
-        const float glossy = coated ? fresnel_dielectric(wo.z, coat.index) : metal.color != vec3{0} ? 1.0f : 0.0f;
-        const float sum = diffuse + glossy > 0 ? diffuse + glossy : 1.0f;
-        const glm::vec2 alpha{coated ? coat.alpha : metal.alpha};
-        return lumis::Mixture{lumis::choose(diffuse / sum, lumis::CosineHemisphere<float>{}),
-                              lumis::choose(glossy / sum, lumis::GgxReflection<float>{wo, alpha})};
+    template <lumis::Real R>
+    [[nodiscard]] Vector<R> radiance(const auto& at) const {
+        return group_ ? group_->template radiance<R>(at) : Vector<R>{R(0.0f)};
     }
-    [[nodiscard]] vec3 reflected(const vec3& wo, const vec3& wi) const {
-        vec3 sum{0};
-        if (base.albedo != vec3{0}) sum += base.reflected(wo, wi);
-        if (coat.index > 0) sum += coat.reflected(wo, wi);
-        if (metal.color != vec3{0}) sum += metal.reflected(wo, wi);
-        return sum;
+
+    template <lumis::Real R>
+    class Seen {
+      public:
+        Seen(const std::optional<Group>& group, const Receiver<R>& receiver) {
+            if (group) seen_.emplace(group->template seen_from<R>(receiver));
+        }
+        [[nodiscard]] LightDraw<R> sample(const glm::vec<3, R>& u) const {
+            if (seen_) return seen_->sample(u);
+            return {{R(0.0f), R(0.0f), R(1.0f)}, R(0.0f), R(0.0f), Vector<R>{R(0.0f)}};
+        }
+        [[nodiscard]] R pdf_from_hit(const Indices<R>& light, const R& distance, const R& cosine) const {
+            return seen_ ? seen_->pdf_from_hit(light, distance, cosine) : R(0.0f);
+        }
+        [[nodiscard]] auto met(const Vector<R>& w) const {
+            using Met = decltype(seen_->met(w));
+            return seen_ ? seen_->met(w) : Met{Vector<R>{R(0.0f)}, R(0.0f)};
+        }
+
+      private:
+        std::optional<typename Group::template Seen<R>> seen_;
+    };
+    template <lumis::Real R>
+    [[nodiscard]] Seen<R> seen_from(const Receiver<R>& receiver) const {
+        return Seen<R>{group_, receiver};
     }
+
+  private:
+    std::optional<Group> group_;
 };
+
+// Kind as a type in a tuple, unless it is one of Own.
+template <class Kind, class... Own>
+[[nodiscard]] auto kind_unless_there() {
+    if constexpr ((std::same_as<Kind, Own> || ...)) {
+        return std::tuple{};
+    } else {
+        return std::tuple{std::type_identity<Kind>{}};
+    }
+}
+// A group that is absent, unless one of Own samples its lights.
+template <class Group, class... Own>
+[[nodiscard]] auto group_unless_there() {
+    if constexpr ((std::same_as<typename Group::Strategy, typename Own::Strategy> || ...)) {
+        return std::tuple{};
+    } else {
+        return std::tuple{Absent<Group>{}};
+    }
+}
+
+// The scene's own kinds and groups come first, so that its surfaces keep their numbers.
+template <class... Own>
+[[nodiscard]] auto with_everything(const Materials<Own...>& materials) {
+    const auto all_kinds =
+        std::tuple_cat(kind_unless_there<Diffuse<float>, Own...>(), kind_unless_there<Coated<float>, Own...>(),
+                       kind_unless_there<Metal<float>, Own...>(), kind_unless_there<Mirror<float>, Own...>(),
+                       kind_unless_there<RoughGlass<float>, Own...>(), kind_unless_there<SmoothGlass<float>, Own...>());
+    return std::apply(
+        [&](auto... missing) {
+            Materials<Own..., typename decltype(missing)::type...> table;
+            const auto copy = [&]<class Kind>() {
+                for (const Kind& one : materials.template of_kind<Kind>()) table.add(one);
+            };
+            (copy.template operator()<Own>(), ...);
+            return table;
+        },
+        all_kinds);
+}
+template <class... Own>
+[[nodiscard]] auto with_everything(const Lights<Own...>& lights) {
+    const auto own = [&]<std::size_t... G>(std::index_sequence<G...>) {
+        return std::tuple{lights.template group<G>()...};
+    }
+    (std::index_sequence_for<Own...>{});
+    const auto all_groups =
+        std::tuple_cat(own, group_unless_there<FewLights<lumis::Sphere, lumis::BySolidAngle>, Own...>(),
+                       group_unless_there<FewLights<lumis::Parallelogram, lumis::ByArea>, Own...>(),
+                       group_unless_there<Environment, Own...>());
+    return std::apply([](auto... groups) { return Lights{std::move(groups)...}; }, all_groups);
+}
 
 template <Scene S>
 class WithEverything {
   public:
-    using Material = std::variant<Everything>;
+    using MaterialTable = decltype(with_everything(std::declval<const typename S::MaterialTable&>()));
+    using LightTable = decltype(with_everything(std::declval<const typename S::LightTable&>()));
 
-    explicit WithEverything(S scene) : scene_{std::move(scene)} {
-        for (const auto& material : scene_.materials()) {
-            materials_.push_back(std::visit([](const auto& one) { return Everything{one}; }, material));
-        }
-    }
+    explicit WithEverything(S scene)
+        : scene_{std::move(scene)},
+          materials_{with_everything(scene_.materials())},
+          lights_{with_everything(scene_.lights())} {}
 
     [[nodiscard]] const Geometry& geometry() const { return scene_.geometry(); }
-    [[nodiscard]] const Material& material(const Surface& surface) const { return materials_[surface.material]; }
-    [[nodiscard]] vec3 background(const vec3& w) const { return scene_.background(w); }
-
-    [[nodiscard]] auto lights_at(const Vertex& vertex) const {
-        return std::tuple_cat(scene_.lights_at(vertex), unless_there(vertex, no_rectangle_),
-                              unless_there(vertex, no_sphere_), unless_there(vertex, no_environment_));
-    }
+    [[nodiscard]] const MaterialTable& materials() const { return materials_; }
+    [[nodiscard]] const LightTable& lights() const { return lights_; }
 
   private:
-    template <class Strategy>
-    [[nodiscard]] auto unless_there(const Vertex& vertex, const Strategy& absent) const {
-        const auto kinds = [](const auto&... lights) {
-            return std::bool_constant<(std::same_as<std::remove_cvref_t<decltype(lights.strategy)>, Strategy> ||
-                                       ...)>{};
-        };
-        if constexpr (decltype(std::apply(kinds, scene_.lights_at(vertex)))::value) {
-            return std::tuple{};
-        } else {
-            return std::tuple{Light<const Strategy&>{absent, false}};
-        }
-    }
-
     S scene_;
-    std::vector<Material> materials_;
-    lumis::AreaLight<lumis::Parallelogram<float>> no_rectangle_{lumis::Parallelogram<float>{}, vec3{0}};
-    lumis::AreaLight<lumis::Sphere<float>, lumis::BySolidAngle> no_sphere_{lumis::Sphere<float>{}, vec3{0}};
-    lumis::EnvironmentMap<float> no_environment_{1, 1, std::vector<float>{0}};
+    MaterialTable materials_;
+    LightTable lights_;
 };
 
-// A mirror asks no light, here too; the power heuristic is the one measured.
-template <class Integrator, Scene S>
-    requires std::same_as<Integrator, Power>
-[[nodiscard]] auto estimator_at(const S& scene, const Vertex& vertex, const Everything& material) {
-    const bool mirror = material.is_mirror();
-    const auto compose = [&](auto... lights) {
-        ((lights.risen = lights.risen && !mirror), ...);
-        return multi_sample(
-            lumis::PowerHeuristic{}, take_bsdf(lumis::in_frame(vertex.frame, material.strategy(vertex.wo)), lights...),
-            lumis::take(mirror ? 1 : 0, lumis::in_frame(vertex.frame, material.mirror.strategy(vertex.wo))),
-            take_light(lights)...);
-    };
-    return std::apply(compose, scene.lights_at(vertex));
-}
-
-template <class Integrator, Scene S>
-    requires std::same_as<Integrator, Power>
-[[nodiscard]] vec3 direct_light(const S& scene, const Vertex& vertex, const Everything& material, auto& uniforms) {
-    struct Reflected {
-        const S& scene;
-        const Vertex& vertex;
-        const Everything& material;
-
-        vec3 operator()(const vec3& wi) const {
-            const vec3 local = vertex.frame.to_local(wi);
-            if (!(local.z > 0)) return vec3{0};
-            return material.reflected(vertex.wo, local) * incident(scene, vertex.position, wi);
-        }
-        vec3 operator()(const vec3& wi, lumis::delta_t) const {
-            return material.mirror.color * incident(scene, vertex.position, wi);
-        }
-    };
-    const auto estimator = estimator_at<Integrator>(scene, vertex, material);
-    return estimator.estimate(Reflected{scene, vertex, material}, uniforms);
-}
-
 template <Scene S>
-[[nodiscard]] std::unique_ptr<Renderer> with_everything(S scene, const SceneOptions& options) {
-    return std::make_unique<SceneRenderer<WithEverything<S>, std::tuple<Power>>>(WithEverything<S>{std::move(scene)},
-                                                                                 options, S::camera());
+[[nodiscard]] std::unique_ptr<Renderer> render_with_everything(S scene, const SceneOptions& options) {
+    return std::make_unique<SceneRenderer<WithEverything<S>>>(WithEverything<S>{std::move(scene)}, options,
+                                                              S::camera());
 }
 
 }  // namespace tracer

@@ -145,6 +145,11 @@ class Lights {
         return surface;
     }
 
+    template <std::size_t G>
+    [[nodiscard]] const auto& group() const {
+        return std::get<G>(groups_);
+    }
+
     // The groups as seen from a point.
     template <lumis::Real R>
     [[nodiscard]] auto seen_from(const Receiver<R>& receiver) const {

@@ -6,21 +6,13 @@
 namespace tracer {
 
 std::unique_ptr<Renderer> make_veach(const SceneOptions& options) {
-    using Plate = Coated<float>;
-    using Scene = Veach<Plate>;
-    return std::make_unique<SceneRenderer<Scene>>(Scene{[](float alpha) {
-                                                      return Plate{{0.07f, 0.09f, 0.13f}, alpha, 2.0f};
-                                                  }},
-                                                  options, Scene::camera());
+    using Scene = Veach<Coated<float>>;
+    return std::make_unique<SceneRenderer<Scene>>(Scene{coated_plate}, options, Scene::camera());
 }
 
 std::unique_ptr<Renderer> make_veach_metal(const SceneOptions& options) {
-    using Plate = Metal<float, Tint>;
-    using Scene = Veach<Plate>;
-    return std::make_unique<SceneRenderer<Scene>>(Scene{[](float alpha) {
-                                                      return Plate{{glm::vec3{1}}, alpha};
-                                                  }},
-                                                  options, Scene::camera());
+    using Scene = Veach<Metal<float, Tint>>;
+    return std::make_unique<SceneRenderer<Scene>>(Scene{metal_plate}, options, Scene::camera());
 }
 
 }  // namespace tracer

@@ -30,6 +30,14 @@ inline constexpr std::array<PlateOutline, 4> veach_plates{{
     {{-3.99615f, 4.0667f}, {-3.82069f, 3.08221f}, 0.1f},
 }};
 
+// The plates as Veach has them, and as other renderers have them: they reflect all light.
+[[nodiscard]] inline Coated<float> coated_plate(float alpha) {
+    return {{0.07f, 0.09f, 0.13f}, alpha, 2.0f};
+}
+[[nodiscard]] inline Metal<float, Tint> metal_plate(float alpha) {
+    return {{glm::vec3{1}}, alpha};
+}
+
 // Plate: the material of the plates.
 template <class Plate>
 class Veach : public SceneParts<Materials<Diffuse<float>, Plate>,
