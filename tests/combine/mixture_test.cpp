@@ -34,6 +34,14 @@ TEMPLATE_TEST_CASE("a mixture reports the density of its value, whichever part d
     CHECK(mixture.pdf({0, 0, -1}) == 0);
 }
 
+TEST_CASE("a mixture's density is that of its parts, times the probability of each", "[mixture]") {
+    const Mixture mixture{choose(0.25, everywhere), choose(0.75, Ramp<double>{})};
+    static_assert(std::is_same_v<decltype(mixture.strategy<1>()), const Ramp<double>&>);
+    CHECK(mixture.probability<0>() == 0.25);
+    CHECK(mixture.probability<1>() == 0.75);
+    CHECK(mixture.pdf(0.3) == 0.25 * mixture.strategy<0>().pdf(0.3) + 0.75 * mixture.strategy<1>().pdf(0.3));
+}
+
 TEST_CASE("a mixture's samples follow its density", "[mixture]") {
     const Mixture mixture{choose(0.3, everywhere), choose(0.7, Ramp<double>{})};
     // E[x] = 0.3 / 2 + 0.7 (1/4 + 1/3).
