@@ -69,7 +69,9 @@ struct Absorbing {
     using In = Absorbing<typename M::template In<S>>;
     static constexpr bool is_delta = M::is_delta, transmits = true;
 
-    [[nodiscard]] LUMIS_INLINE auto strategy(const glm::vec<3, Scalar>& wo) const { return glass.strategy(wo); }
+    using Lobes = typename M::Lobes;
+    using Bsdf = typename M::Bsdf;
+    [[nodiscard]] LUMIS_INLINE Bsdf strategy(const glm::vec<3, Scalar>& wo) const { return glass.strategy(wo); }
     [[nodiscard]] LUMIS_INLINE glm::vec<3, Scalar> albedo_seen(const glm::vec<3, Scalar>& wo) const {
         return glass.albedo_seen(wo);
     }
