@@ -80,9 +80,12 @@ template <lumis::Real R>
     if constexpr (std::floating_point<R>) {
         return entries[0] == entry;
     } else {
-        typename Mask<R>::Vector numbers;
+        Indices<R> same;
+        same.fill(entry);
+        typename Mask<R>::Vector numbers, sought;
         std::memcpy(&numbers, entries.data(), sizeof numbers);
-        return Mask<R>{numbers == static_cast<std::int32_t>(entry)};
+        std::memcpy(&sought, same.data(), sizeof sought);
+        return Mask<R>{numbers == sought};
     }
 }
 
