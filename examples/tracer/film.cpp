@@ -51,7 +51,7 @@ glm::vec3 third_brightest_around(const Image& image, std::size_t index) {
     glm::vec3 first{0}, second{0}, third{0};
     for (int r = 0; r < 3; ++r) {
         for (int c = 0; c < 3; ++c) {
-            if (r == 1 && c == 1) continue;
+            if (rows[r] == y && columns[c] == x) continue;
             const glm::vec3& value = image.pixels[rows[r] * width + columns[c]];
             third = glm::max(third, glm::min(second, value));
             second = glm::max(second, glm::min(first, value));

@@ -20,11 +20,12 @@ struct Limits {
     double error = 0;                                          // the film's relative error falls below it
 };
 
-// Samples of a pixel in each pass but the last, which may have fewer. Points of a low-discrepancy sequence make the more of a pass
-// the longer it is, but the error is told by four passes at least, and Ctrl-C waits for the end of one.
+// Samples of a pixel in each pass but the last, which may have fewer: packets fill up multiples of 16. Points of a low-discrepancy
+// sequence make the more of a pass the longer it is, but four passes are better to tell the error, and Ctrl-C waits for the
+// end of one.
 [[nodiscard]] inline int samples_of_pass(const Limits& limits) {
     if (limits.samples == max_samples) return 16;
-    return std::clamp((limits.samples - 1) / 3 / 8 * 8, 8, 64);
+    return std::clamp((limits.samples - 1) / 3 / 16 * 16, 16, 64);
 }
 
 // What a run has reached, which began with some samples of an earlier one.

@@ -43,10 +43,10 @@ TEST_CASE("time is told in units of its size") {
 TEST_CASE("passes are whole packets, and four at least where there are samples enough") {
     for (int samples = 1; samples < 500; ++samples) {
         const int pass = samples_of_pass({.samples = samples});
-        CHECK(pass % 8 == 0);
-        CHECK(pass >= 8);
+        CHECK(pass % 16 == 0);
+        CHECK(pass >= 16);
         CHECK(pass <= 64);
-        if (samples > 24) CHECK((samples + pass - 1) / pass >= 4);
+        if (samples > 48) CHECK((samples + pass - 1) / pass >= 4);
     }
     CHECK(samples_of_pass({.samples = 64}) == 16);
 }
