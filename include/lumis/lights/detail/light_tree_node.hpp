@@ -76,7 +76,8 @@ template <Real R, std::floating_point T>
                                                [[maybe_unused]] std::size_t child) noexcept {
     using Vector = glm::vec<3, R>;
     constexpr T least = (std::numeric_limits<T>::min)(), epsilon = std::numeric_limits<T>::epsilon();
-    constexpr T least_cosine = T(1e-3);  // where the bounds hardly allow one
+    constexpr T least_squared = std::same_as<T, float> ? T(0x1p-60) : T(0x1p-500);  // its inverse can be squared
+    constexpr T least_cosine = T(1e-3);                                             // where the bounds hardly allow one
     const auto of_children = [&](const std::array<T, light_tree_width>& x) -> R {
         if constexpr (std::floating_point<R>) {
             return x[child];
@@ -91,9 +92,9 @@ template <Real R, std::floating_point T>
     const auto reach_along = [&](const Vector& n) {
         return R(real::abs(n.x) * half.x + real::abs(n.y) * half.y + real::abs(n.z) * half.z);
     };
-    const R squared = real::dot(to_center, to_center) + T(0.2) * real::dot(half, half);
-    const R inverse_squared = 1 / real::greater(squared, R(64 * least));  // an intensity times this is a number
-    const R inverse = real::sqrt(inverse_squared), distance = squared * inverse;
+    const R squared =
+        real::greater(R(real::dot(to_center, to_center) + T(0.2) * real::dot(half, half)), R(least_squared));
+    const R distance = real::sqrt(squared), inverse_squared = 1 / squared;
     const R farthest = T(2.45) * distance;  // (d + r)^2 <= 6 (d^2 + r^2 / 5)
     const R rounding = 32 * epsilon * farthest;
 
@@ -107,15 +108,18 @@ template <Real R, std::floating_point T>
         real::lesser(real::select(against < 0, mean_off(in_front, spread), mean_above(in_front, spread)), distance);
     const R mean_of_wide = real::select(cos_cone < 0, R(mean - cos_cone * (distance - mean)), mean);
     const R intensity = of_children(node.intensity);
-    R weight = intensity * real::greater(R(mean_of_wide * inverse), R(least_cosine)) * inverse_squared;
+    const R least_height = least_cosine * distance;
+    R weight = intensity * inverse_squared * real::greater(mean_of_wide, least_height);
     auto reached = intensity > 0 && faces;
 
     if (at.has_normal) {
         const Vector normal(at.normal);
         const R height = real::dot(normal, to_center), reach_up = reach_along(normal);
         const R mean_height = real::lesser(mean_above(height, reach_up), distance);
-        weight *= real::greater(R(mean_height * inverse), R(least_cosine));
+        weight *= inverse_squared * real::greater(mean_height, least_height);
         reached = reached && height + reach_up > -rounding;
+    } else {
+        weight *= inverse_squared * distance;
     }
     return real::select(reached, real::greater(weight, R(least)), T(0));
 }
@@ -138,15 +142,16 @@ template <std::floating_point T>
 [[nodiscard]] LUMIS_NOINLINE std::array<std::uint64_t, light_tree_width> deal_to_children(
     const LightTreeNode<T>& node, const LitPoint<T>& at, std::uint64_t counts) noexcept {
     std::array<T, light_tree_width> sum = importances(node, at);
-    std::array<std::uint64_t, light_tree_width> ends;
+    std::array<std::uint64_t, light_tree_width>
+        ends{};  // the one that is returned: g++ would copy another by slow loads
     T total = 0;
-    std::uint64_t lights = 0;
+    std::uint32_t lights = 0;
     for (std::size_t i = 0; i < light_tree_width; ++i) {
-        lights += sum[i] > 0 ? node.lights[i] : 0;
+        lights += node.lights[i] & (0 - std::uint32_t{sum[i] > 0});  // no branch, half of which would be guessed wrong
         ends[i] = lights;
         sum[i] = total += sum[i];
     }
-    if (!(total > 0)) return {};
+    if (!(total > 0)) return ends;
     // A share of exactly 1 from the last child on that has a weight, to which all of the counts then go.
     const auto spare = static_cast<double>(static_cast<std::int64_t>(counts - lights));
     for (std::size_t i = 0; i < light_tree_width; ++i) {
