@@ -1,11 +1,14 @@
-// A thousand lights of which a point sees some: selected by power alone, and by what resampling knows of them besides.
+// A thousand lights of which a point sees some: selected by power alone, by a light tree, exactly, and by what resampling knows of
+// them besides.
 #include "problem.hpp"
 #include <lumis/combine/resample.hpp>
 #include <lumis/lights/area_light.hpp>
 #include <lumis/lights/area_light_by_solid_angle.hpp>
 #include <lumis/lights/light_set.hpp>
+#include <lumis/lights/light_tree.hpp>
 #include <lumis/lights/selected_light.hpp>
 #include <lumis/tables/alias_table.hpp>
+#include <lumis/tables/discrete_table.hpp>
 
 #include <glm/geometric.hpp>
 
@@ -43,12 +46,14 @@ struct Scene {
     std::vector<Cap> hidden;
     double irradiance = 0;
     lumis::AliasTable<double> by_power;
+    lumis::LightTree<double> tree;
 
     Scene() {
         std::mt19937_64 engine{11};
         lumis::Uniforms<std::mt19937_64&, double> uniforms{engine};
         while (hidden.size() < occluders) hidden.push_back({upward(uniforms), 0.02 + 0.04 * uniforms.next<1>().x});
         std::vector<double> powers;
+        std::vector<lumis::LightBounds<double>> bounds;
         while (balls.size() < lights) {
             // Distances from 2 to 20, and radiances over three decades.
             const auto u = uniforms.next<3>();
@@ -63,10 +68,12 @@ struct Scene {
             balls.push_back({distance * seen.axis, radius});
             radiance.push_back(emitted);
             powers.push_back(emitted * radius * radius);
+            bounds.push_back(light_bounds(balls.back(), emitted));
             if (!is_occluded(seen.axis))
                 irradiance += emitted * std::numbers::pi * std::pow(radius / distance, 2) * seen.axis.z;
         }
         by_power = lumis::AliasTable<double>{powers};
+        tree = lumis::LightTree{bounds};
     }
 
     // Takes half a microsecond, as a shadow ray through a large scene does.
@@ -95,12 +102,23 @@ struct Scene {
     };
 }
 
-// A light, selected by its power, and a direction to it.
-[[nodiscard]] auto selected(const Scene& scene) {
+// A light, selected by a table, and a direction to it.
+[[nodiscard]] auto selected(const Scene& scene, const auto& table) {
     const auto light = [&scene](std::size_t i) {
         return lumis::AreaLight<lumis::Sphere<double>, lumis::BySolidAngle>{scene.balls[i], dvec3{0}};
     };
-    return lumis::SelectedLight{lumis::LightSet{light, scene.by_power}};
+    return lumis::SelectedLight{lumis::LightSet{light, table}};
+}
+
+// By what each gives without shadows: as a host that looks at all lights at each point would.
+[[nodiscard]] lumis::DiscreteTable<double> exact_table(const Scene& scene) {
+    std::vector<double> given;
+    for (std::size_t i = 0; i < scene.balls.size(); ++i) {
+        const auto& [center, radius] = scene.balls[i];
+        const double squared = glm::dot(center, center);
+        given.push_back(scene.radiance[i] * radius * radius * center.z / (squared * std::sqrt(squared)));
+    }
+    return lumis::DiscreteTable<double>{given};
 }
 
 Problem many_lights() {
@@ -108,28 +126,43 @@ Problem many_lights() {
     Problem problem{"lights", "A thousand lights",
                     "Small balls of radiances over three decades, at distances from 2 to 20, four in ten of them "
                     "hidden. A light is "
-                    "selected by its power, or by resampling 1 to 32 such lights in proportion to what they would give "
-                    "without shadows; either way one shadow is asked for.",
+                    "selected by its power, by a light tree, exactly by looking at all, or by resampling lights in "
+                    "proportion to what they would give without shadows; always one shadow is asked for.",
                     Answer{scene->irradiance}};
-    for (const int candidates : {0, 1, 2, 4, 8, 16, 32}) {
-        const bool alone = candidates == 0;
-        problem.compete(alone ? "by power" : "resampled " + std::to_string(candidates), true,
-                        Recipe{alone ? "alone" : "resampled"},
-                        [=](std::span<double> sums, std::int64_t count, RandomNumbers& uniforms) {
-                            const auto f = reflected(*scene);
-                            const auto add_up = [&](const auto& estimator) {
-                                for (double& sum : sums) {
-                                    sum = 0;
-                                    for (std::int64_t i = 0; i < count; ++i) sum += estimator.estimate(f, uniforms);
-                                }
-                            };
-                            if (alone) {
-                                add_up(multi_sample(lumis::BalanceHeuristic{}, lumis::take(1, selected(*scene))));
-                            } else {
-                                add_up(resample(unoccluded(*scene), lumis::take(candidates, selected(*scene))));
-                            }
-                        });
+    const auto run = [scene](const auto& make_estimator) {
+        return [=](std::span<double> sums, std::int64_t count, RandomNumbers& uniforms) {
+            const auto f = reflected(*scene);
+            for (double& sum : sums) {
+                sum = 0;
+                for (std::int64_t i = 0; i < count; ++i) sum += make_estimator(*scene, f, uniforms);
+            }
+        };
+    };
+    const auto alone = [](const auto& one, const auto& f, RandomNumbers& uniforms) {
+        return multi_sample(lumis::BalanceHeuristic{}, lumis::take(1, one)).estimate(f, uniforms);
+    };
+    problem.compete("by power", true, Recipe{"alone"}, run([=](const Scene& s, const auto& f, RandomNumbers& uniforms) {
+                        return alone(selected(s, s.by_power), f, uniforms);
+                    }));
+    problem.compete("by tree", true, Recipe{"alone"}, run([=](const Scene& s, const auto& f, RandomNumbers& uniforms) {
+                        return alone(selected(s, s.tree.from(dvec3{0}, dvec3{0, 0, 1})), f, uniforms);
+                    }));
+    problem.compete("exact", true, Recipe{"alone"}, run([=](const Scene& s, const auto& f, RandomNumbers& uniforms) {
+                        const lumis::DiscreteTable<double> table = exact_table(s);
+                        return alone(selected(s, table), f, uniforms);
+                    }));
+    for (const int candidates : {1, 2, 4, 8, 16, 32}) {
+        problem.compete(
+            "resampled " + std::to_string(candidates), true, Recipe{"resampled"},
+            run([=](const Scene& s, const auto& f, RandomNumbers& uniforms) {
+                return resample(unoccluded(s), lumis::take(candidates, selected(s, s.by_power))).estimate(f, uniforms);
+            }));
     }
+    problem.compete("tree, resampled 2", true, Recipe{"resampled"},
+                    run([=](const Scene& s, const auto& f, RandomNumbers& uniforms) {
+                        const auto one = selected(s, s.tree.from(dvec3{0}, dvec3{0, 0, 1}));
+                        return resample(unoccluded(s), lumis::take(2, one)).estimate(f, uniforms);
+                    }));
     return problem;
 }
 const Registered thousand{"many-lights", many_lights};
