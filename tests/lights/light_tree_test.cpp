@@ -1,6 +1,7 @@
 // Light trees: each light is drawn exactly as often as its probability says.
 #include "catch.hpp"
 #include "copies.hpp"
+#include "exceptions.hpp"
 #include "random_points.hpp"
 #include <lumis/lights/light_tree.hpp>
 #include <lumis/testing/chi_square.hpp>
@@ -239,6 +240,21 @@ TEMPLATE_TEST_CASE("degenerate lights and points", "[light_tree]", float, double
         CHECK(sum >= 0.2);
         CHECK(sum <= 1);
     }
+}
+
+TEMPLATE_TEST_CASE("a light tree raises no floating-point exceptions", "[light_tree]", float, double) {
+    using T = TestType;
+    using V = glm::vec<3, T>;
+    const LightTree tree{random_lights<T>(100, 7)}, together{std::vector<LightBounds<T>>(5, {V(T(1)), V(T(1)), T(2)})};
+    CHECK(exceptions_raised_by([&] {
+              for (const T x : {T(0), T(1), T(-0.3), T(1e9), T(1e-20)}) {
+                  for (const auto& one : {tree.view(), together.view()}) {
+                      const auto seen = one.from(V(unknown(x)), V(0, 0, unknown(T(1))));
+                      for (const T u : {T(0), T(0.4), T(1)}) keep(seen.sample(glm::vec<1, T>{unknown(u)}));
+                      for (std::size_t i = 0; i < one.size(); ++i) keep(one.from(V(unknown(x))).pdf(i));
+                  }
+              }
+          }) == 0);
 }
 
 TEST_CASE("a light tree is shallow wherever the lights are", "[light_tree]") {

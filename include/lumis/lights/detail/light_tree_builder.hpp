@@ -121,6 +121,13 @@ class LightTreeBuilder {
         NormalCone cone{};
         double intensity{};
         std::size_t lights{};
+
+        void add(const Cluster& other) {
+            place.add(other.place);
+            cone = cone_about(cone, other.cone);
+            intensity += other.intensity;
+            lights += other.lights;
+        }
     };
 
     // A quarter of the counts are enough for one each, see require_enough_counts.
@@ -183,43 +190,55 @@ class LightTreeBuilder {
         [[nodiscard]] std::size_t size() const noexcept { return end - begin; }
     };
 
-    // Makes the node of a range of lights, and those below.
-    Cluster build(const Range& range, unsigned level, LightPath path) {
-        built_.levels = std::max(built_.levels, level + 1);
-        const std::size_t id = built_.nodes.size();
-        built_.nodes.push_back(empty_node());
-        // The children: the largest one is divided until there are four.
-        std::array<Range, light_tree_width> child{range};
-        std::size_t children = 1;
-        // Halves where others might leave too many lights for the levels that remain.
-        const bool evenly = static_cast<unsigned>(std::bit_width(range.size())) > 2 * (most_levels - 1 - level);
-        while (children < light_tree_width) {
-            const auto largest = std::max_element(child.begin(), child.begin() + children,
-                                                  [](const Range& a, const Range& b) { return a.size() < b.size(); });
+    struct Children {
+        std::array<Range, light_tree_width> range;
+        std::size_t count;
+    };
+
+    // Divides the largest part of a range until there are four.
+    Children children_of(const Range& whole, bool evenly) {
+        Children children{{whole}, 1};
+        while (children.count < light_tree_width) {
+            const auto first = children.range.begin(), end = first + static_cast<std::ptrdiff_t>(children.count);
+            const auto largest =
+                std::max_element(first, end, [](const Range& a, const Range& b) { return a.size() < b.size(); });
             if (largest->size() < 2) break;
             const std::size_t middle = divide(*largest, evenly);
             const Range rest{middle, largest->end};
             largest->end = middle;
-            std::move_backward(largest + 1, child.begin() + children, child.begin() + children + 1);
+            std::move_backward(largest + 1, end, end + 1);
             *(largest + 1) = rest;
-            ++children;
+            ++children.count;
         }
+        return children;
+    }
+
+    // Makes the node of a range of lights, and those below.
+    Cluster build(const Range& range, unsigned level, LightPath path) {
+        built_.levels = std::max(built_.levels, level + 1);
+        const std::size_t id = built_.nodes.size();
+        built_.nodes.emplace_back();
+        // Halves where others might leave too many lights for the levels that remain.
+        const bool evenly = static_cast<unsigned>(std::bit_width(range.size())) > 2 * (most_levels - 1 - level);
+        const Children children = children_of(range, evenly);
         Cluster whole{};
-        for (std::size_t i = 0; i < children; ++i) {
+        for (std::size_t i = 0; i < children.count; ++i) {
+            const Range& part = children.range[i];
             const LightPath path_of_child = path | LightPath{i} << 2 * level;
             const auto next = static_cast<std::uint32_t>(built_.nodes.size());
-            const bool is_light = child[i].size() == 1;
-            const LightToPlace<T>& first = lights_[child[i].begin];
-            const Cluster cluster = is_light ? alone(first, path_of_child) : build(child[i], level + 1, path_of_child);
+            const bool is_light = part.size() == 1;
+            const LightToPlace<T>& first = lights_[part.begin];
+            const Cluster cluster = is_light ? alone(first, path_of_child) : build(part, level + 1, path_of_child);
             set_child(built_.nodes[id], i, cluster, is_light ? first.index | LightTreeNode<T>::light_bit : next);
             if (i == 0) {
                 whole = cluster;
-                continue;
+            } else {
+                whole.add(cluster);
             }
-            whole.place.add(cluster.place);
-            whole.cone = cone_about(whole.cone, cluster.cone);
-            whole.intensity += cluster.intensity;
-            whole.lights += cluster.lights;
+        }
+        // Children that are none stand among the others, so that nothing they are computed with is out of range.
+        for (std::size_t i = children.count; i < light_tree_width; ++i) {
+            set_child(built_.nodes[id], i, {whole.place, whole.cone, 0, 0}, 0);
         }
         return whole;
     }
@@ -227,15 +246,6 @@ class LightTreeBuilder {
     Cluster alone(const LightToPlace<T>& light, LightPath path) {
         built_.paths[light.index] = path;
         return {light.place, normal_cone(bounds_[light.index]), static_cast<double>(light.intensity), 1};
-    }
-
-    static LightTreeNode<T> empty_node() noexcept {
-        LightTreeNode<T> node{};
-        for (std::size_t i = 0; i < light_tree_width; ++i) {
-            node.axis[2][i] = T(1);
-            node.against[i] = T(1);
-        }
-        return node;
     }
 
     void set_child(LightTreeNode<T>& node, std::size_t i, const Cluster& cluster, std::uint32_t child) const {
@@ -251,7 +261,9 @@ class LightTreeBuilder {
         const bool is_one = !(cluster.cone.angle > 0);
         node.cos_cone[i] = is_one ? T(1) : cluster.cone.is_all() ? T(-1) : std::nextafter(cosine, T(-1));
         node.against[i] = cluster.cone.sides == Sides::Both ? T(-1) : T(1);
-        node.intensity[i] = real::greater(static_cast<T>(cluster.intensity / sum_), (std::numeric_limits<T>::min)());
+        node.intensity[i] = cluster.lights == 0 ? T(0)
+                                                : real::greater(static_cast<T>(cluster.intensity / sum_),
+                                                                (std::numeric_limits<T>::min)());
         node.lights[i] = static_cast<std::uint32_t>(cluster.lights);
         node.child[i] = child;
     }
