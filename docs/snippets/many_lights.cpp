@@ -1,4 +1,5 @@
-// The guide's sets of lights: of one type, made as they are asked for; and of several kinds by std::variant.
+// The guide's sets of lights: of one type, made as they are asked for; selected by a light tree; and of several kinds by
+// std::variant.
 #include "catch.hpp"
 #include "z_test.hpp"
 #include <lumis/lumis.hpp>
@@ -71,6 +72,35 @@ TEST_CASE("a set of lights of one type") {
     const auto lights = [&](std::size_t i) { return lumis::AreaLight{triangles[i], position}; };
     const lumis::LightSet set{lights, by_power};  // at each point; allocates nothing
     check_irradiance(set, irradiance_of_square);
+}
+
+TEST_CASE("a light tree") {
+    const vec3 position{0}, normal{0, 0, 1};
+    const std::vector<float> radiance{1, 1};
+    const auto lights = [&](std::size_t i) { return lumis::AreaLight{triangles[i], position}; };
+    const lumis::CosineHemisphere<float> bsdf;
+    const auto brdf_cos = [](const vec3& wi) { return wi.z > 0 ? wi.z : 0.0f; };
+    const auto is_visible = [](std::size_t, const vec3&) { return true; };
+    const auto first_light = [](const vec3& wi) {
+        const bool is_met = std::abs(wi.x) < wi.z && std::abs(wi.y) < wi.z;
+        return !is_met ? lumis::no_light : wi.y < wi.x ? std::size_t{0} : std::size_t{1};
+    };
+
+    std::vector<lumis::LightBounds<float>> bounds;
+    for (std::size_t i = 0; i < triangles.size(); ++i) bounds.push_back(light_bounds(triangles[i], radiance[i]));
+    const lumis::LightTree tree{bounds};  // once
+
+    const lumis::SelectedLight one{lumis::LightSet{lights, tree.from(position, normal)}};  // at each point
+    const lumis::MetLight met{one, bsdf, first_light};  // first_light(wi): that which a ray meets, or lumis::no_light
+    const auto direct = multi_sample(lumis::PowerHeuristic{}, lumis::take(1, met), lumis::take(1, one));
+    const auto reflected = [&](const lumis::ToLight<vec3>& x) {
+        return is_visible(x.index, x.direction) ? radiance[x.index] * brdf_cos(x.direction) : 0.0f;
+    };
+
+    const auto law =
+        z_test<float>([&](auto& uniforms) { return direct.estimate(reflected, uniforms); }, irradiance_of_square, 1);
+    INFO(law.message);
+    CHECK(law.passed);
 }
 
 TEST_CASE("a set of lights of several kinds") {

@@ -155,6 +155,16 @@ template <class Point>
 struct ToLight;
 template <class Set>
 class SelectedLight;
+template <class One, class S, class Meet>
+class MetLight;
+template <std::floating_point T>
+struct LightBounds;
+template <std::floating_point T>
+class LightTree;
+template <std::floating_point T>
+class LightTreeView;
+template <std::floating_point T, int Uniforms>
+class LightTreeFrom;
 
 // combine
 struct BalanceHeuristic;
