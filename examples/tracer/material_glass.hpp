@@ -57,8 +57,21 @@ struct SmoothGlass {
     }
 };
 
-// Glass that absorbs light on its way inside, by the law of Beer and Lambert: a path that arrives at it from below, wo.z < 0,
-// has come that way.
+// The share of light that is left after a way through what absorbs it (Beer and Lambert). Nothing is absorbed in the open,
+// however far away the sky is.
+template <lumis::Real R>
+[[nodiscard]] inline glm::vec<3, R> left_after(const R& distance, const glm::vec<3, R>& absorption) {
+    const auto left = [&](const R& per_length) {
+        return of_lanes<R>([&](auto i) {
+            const float a = lane(per_length, i);
+            return a > 0.0f ? std::exp(-a * lane(distance, i)) : 1.0f;
+        });
+    };
+    return {left(absorption.x), left(absorption.y), left(absorption.z)};
+}
+
+// Glass that absorbs light on its way inside, where anything else may stand as well. It is polished: rough glass asks lights,
+// on both its sides, and would have to tell which of them shine through it.
 template <class M>
 struct Absorbing {
     M glass;
@@ -67,7 +80,8 @@ struct Absorbing {
     using Scalar = typename M::Scalar;
     template <lumis::Real S>
     using In = Absorbing<typename M::template In<S>>;
-    static constexpr bool is_delta = M::is_delta, transmits = true;
+    static constexpr bool is_delta = true, transmits = true;
+    static_assert(M::is_delta && M::transmits, "polished glass alone absorbs");
 
     using Lobes = typename M::Lobes;
     using Bsdf = typename M::Bsdf;
@@ -75,14 +89,8 @@ struct Absorbing {
     [[nodiscard]] LUMIS_INLINE glm::vec<3, Scalar> albedo_seen(const glm::vec<3, Scalar>& wo) const {
         return glass.albedo_seen(wo);
     }
-    // The share of light that is left after a way inside.
-    [[nodiscard]] glm::vec<3, Scalar> left_after(Scalar distance) const {
-        const auto left = [&](Scalar per_length) {
-            const Scalar depth = per_length * distance;
-            return of_lanes<Scalar>([&](auto i) { return std::exp(-lane(depth, i)); });
-        };
-        const glm::vec<3, Scalar> color{left(absorption.x), left(absorption.y), left(absorption.z)};
-        return finite_where(distance >= 0.0f, color);
+    [[nodiscard]] glm::vec<3, Scalar> left_after(const Scalar& distance) const {
+        return tracer::left_after(distance, absorption);
     }
 };
 

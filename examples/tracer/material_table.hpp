@@ -17,11 +17,18 @@
 
 namespace tracer {
 
+// What fills the inside of such a material absorbs light.
+template <class Material>
+concept Absorbs = requires(const Material& material) {
+    material.absorption;
+};
+
 // Kinds are materials of floats, see materials.hpp.
 template <class... Kinds>
 class Materials {
   public:
     static constexpr bool transmit = (Kinds::transmits || ...);
+    static constexpr bool absorb = (Absorbs<Kinds> || ...);
 
     // Uniforms that sample any of the kinds.
     static constexpr int dimensions = std::max({decltype(std::declval<Kinds>().strategy(glm::vec3{}))::dimensions...});

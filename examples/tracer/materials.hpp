@@ -9,7 +9,7 @@
 //     .evaluate(wi)        what is scattered from wi to wo, and the density of wi, which share work: see Scattering
 //     .coefficient(wi)     instead, if it is a delta strategy: multiply a path's throughput by it, and divide by the pdf
 //                          of the sample
-//   left_after(distance)   of what absorbs light inside: see Absorbing
+//   absorption             of what absorbs light inside: see Absorbing
 //   albedo_seen(wo)        roughly how much of a white sky it scatters to wo, for a denoiser
 //
 // What is scattered is finite and not negative, whatever numbers a lane holds: 0 where directions are on the wrong side or are

@@ -54,6 +54,7 @@ class PathTracer {
         Surfaces on = surfaces_of(hit, alive);
         Found<R> found{emitted(ray, on, alive), black, hit.normal};
         Vector<R> throughput{R(1.0f)};
+        Vector<R> absorption = black;  // of the medium that the path is in: a camera stands in the open
         for (int bounce = 1; bounce <= bounces_; ++bounce) {
             alive = alive && on.reflects;
             if (!any(alive)) break;
@@ -76,7 +77,7 @@ class PathTracer {
             if (asks_lights(integrator_)) draw_from(lights, asks, draws);
             const Scattered next = scattered(on, vertex, alive, goes_on, asks, draws);
             if (bounce == 1) found.albedo = next.albedo;
-            if (any(asks)) found.radiance += throughput * direct_light(draws, vertex, asks, rounds);
+            if (any(asks)) found.radiance += throughput * direct_light(draws, vertex, absorption, asks, rounds);
 
             // The path goes on.
             throughput *= next.factor;
@@ -91,6 +92,10 @@ class PathTracer {
             if (!any(alive)) break;
             ray = {hit.position, lumis::real::select(alive, next.direction, up)};
             hit = scene_.geometry().closest(ray, alive);
+            if constexpr (S::MaterialTable::absorb) {
+                absorption = lumis::real::select(next.changes_medium, next.absorption, absorption);
+                throughput *= left_after(hit.distance, absorption);
+            }
             on = surfaces_of(hit, alive);
             found.radiance += throughput * emitted(ray, hit, on, alive, lights, next, is_found_by_both, rounds);
         }
@@ -191,12 +196,14 @@ class PathTracer {
         R pdf;  // 0 of a polished material
         Mask<R> is_drawn;
         Vector<R> albedo;  // of the material
+        Mask<R> changes_medium;
+        Vector<R> absorption;  // of the medium that it then goes on in
     };
 
     // Draws by the BSDF in the lanes that go on, and tells lanes that ask lights what it scatters of their draws.
     [[nodiscard]] LUMIS_INLINE Scattered scattered(const Surfaces& on, const Vertex& vertex, const Mask<R>& alive,
                                                    const Mask<R>& goes_on, const Mask<R>& asks, Draws& draws) {
-        Scattered next{up, black, R(0.0f), Mask<R>(false), black};
+        Scattered next{up, black, R(0.0f), Mask<R>(false), black, Mask<R>(false), black};
         const auto u = uniforms_.template next<S::MaterialTable::dimensions>();
         scene_.materials().template visit<R>(
             on.kind, on.material, alive, [&](const auto& material, const Mask<R>& mask) {
@@ -223,6 +230,13 @@ class PathTracer {
                 next.factor = lumis::real::select(is_drawn, factor, next.factor);
                 next.pdf = lumis::real::select(is_drawn, pdf, next.pdf);
                 next.is_drawn = next.is_drawn || is_drawn;
+                if constexpr (S::MaterialTable::absorb && Material::transmits) {
+                    next.changes_medium = next.changes_medium || is_drawn;
+                    if constexpr (Absorbs<Material>) {
+                        const Mask<R> is_inside = is_drawn && drawn.value.z < 0.0f;
+                        next.absorption = lumis::real::select(is_inside, material.absorption, next.absorption);
+                    }
+                }
             });
         return next;
     }
@@ -236,14 +250,16 @@ class PathTracer {
     }
 
     // What the material scatters of the draws that nothing hides, weighted.
-    [[nodiscard]] LUMIS_INLINE Vector<R> direct_light(const Draws& draws, const Vertex& vertex, const Mask<R>& asks,
+    [[nodiscard]] LUMIS_INLINE Vector<R> direct_light(const Draws& draws, const Vertex& vertex,
+                                                      const Vector<R>& absorption, const Mask<R>& asks,
                                                       Rounds* rounds) {
         Vector<R> sum = black;
         for (const Draw& draw : draws) {
             const Mask<R> is_drawn = asks && draw.light.pdf > 0.0f;
             const R weight = weight_of_light_sample(integrator_, draw.own, effective(draw.scattering.pdf));
             const R factor = lumis::real::quotient_where(is_drawn, weight, draw.own);
-            const Vector<R> light = draw.scattering.reflected * draw.light.radiance * factor;
+            Vector<R> light = draw.scattering.reflected * draw.light.radiance * factor;
+            if constexpr (S::MaterialTable::absorb) light *= left_after(draw.light.distance, absorption);
             Mask<R> arrives = is_drawn && light.x + light.y + light.z > 0.0f;
             if (rounds != nullptr) arrives = arrives || (is_drawn && draw.scattering.pdf > 0.0f);
             if (any(arrives)) {

@@ -9,7 +9,7 @@ namespace tracer {
 
 namespace {
 
-constexpr std::array<SceneEntry, 6> all_scenes{{
+constexpr std::array<SceneEntry, 8> all_scenes{{
     {"veach", "Veach's plates and spheres",
      "Four coated plates, the farthest the smoothest, reflect five sphere lights of falling size and rising radiance. "
      "Sampling the lights fails where a smooth plate mirrors a large light, sampling the BSDF where a rough one "
@@ -33,6 +33,14 @@ constexpr std::array<SceneEntry, 6> all_scenes{{
     {"furnace", "Objects that cannot be seen",
      "Chalk, a mirror, glass and a glowing ball lose no light under a uniform sky: all of the image is 1.", 512, 256,
      false, make_furnace},
+    {"glass", "Glass on a table",
+     "A polished ball, whose caustic only paths of the BSDF find, a ball of ground glass, and a block that absorbs.",
+     640, 480, false, make_glass},
+    {"slab", "A slab of coloured glass with a known answer",
+     "Seen from above under a uniform sky; in its right half a lamp shines. Each pixel is known by Fresnel's equations "
+     "and "
+     "Beer's law.",
+     256, 256, false, make_slab},
 }};
 
 }  // namespace

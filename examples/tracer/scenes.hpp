@@ -13,5 +13,7 @@ namespace tracer {
 [[nodiscard]] std::unique_ptr<Renderer> make_cornell(const SceneOptions& options);
 [[nodiscard]] std::unique_ptr<Renderer> make_box(const SceneOptions& options);
 [[nodiscard]] std::unique_ptr<Renderer> make_furnace(const SceneOptions& options);
+[[nodiscard]] std::unique_ptr<Renderer> make_glass(const SceneOptions& options);
+[[nodiscard]] std::unique_ptr<Renderer> make_slab(const SceneOptions& options);
 
 }  // namespace tracer
