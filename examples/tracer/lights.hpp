@@ -140,7 +140,14 @@ class Lights {
     // Puts a light into a group: its surface, which has the material of the surface given, if any.
     template <std::size_t G>
     Surface add(const auto& shape, const glm::vec3& radiance, Surface surface = {}) {
-        surface.light = std::get<G>(groups_).add(shape, radiance);
+        return Lights::surface<G>(std::get<G>(groups_).add(shape, radiance), surface);
+    }
+
+    // The surface of a light that its group holds already.
+    template <std::size_t G>
+    [[nodiscard]] static Surface surface(std::size_t light, Surface surface = {}) {
+        static_assert(G < sizeof...(Groups));
+        surface.light = static_cast<std::uint32_t>(light);
         surface.group = static_cast<std::uint32_t>(G);
         return surface;
     }

@@ -9,7 +9,7 @@ namespace tracer {
 
 namespace {
 
-constexpr std::array<SceneEntry, 8> all_scenes{{
+constexpr std::array<SceneEntry, 9> all_scenes{{
     {"veach", "Veach's plates and spheres",
      "Four coated plates, the farthest the smoothest, reflect five sphere lights of falling size and rising radiance. "
      "Sampling the lights fails where a smooth plate mirrors a large light, sampling the BSDF where a rough one "
@@ -41,6 +41,8 @@ constexpr std::array<SceneEntry, 8> all_scenes{{
      "and "
      "Beer's law.",
      256, 256, false, make_slab},
+    {"many-lights", "Ten thousand lights",
+     "A spiral of small spheres, of which a light tree chooses one for each point.", 640, 400, false, make_many_lights},
 }};
 
 }  // namespace
