@@ -73,8 +73,8 @@ class PathTracer {
             if (bounce == 1) asks_first = asks;
 
             // Directions of both: towards lights, and by the BSDF.
-            Draws draws{};
-            if (asks_lights(integrator_)) draw_from(lights, asks, draws);
+            Draws draws;
+            if (asks_lights(integrator_)) draw_from(lights, bounce, asks, draws);
             const Scattered next = scattered(on, vertex, alive, goes_on, asks, draws);
             if (bounce == 1) found.albedo = next.albedo;
             if (any(asks)) found.radiance += throughput * direct_light(draws, vertex, absorption, asks, rounds);
@@ -97,7 +97,7 @@ class PathTracer {
                 throughput *= left_after(hit.distance, absorption);
             }
             on = surfaces_of(hit, alive);
-            found.radiance += throughput * emitted(ray, hit, on, alive, lights, next, is_found_by_both, rounds);
+            found.radiance += throughput * emitted(ray, hit, on, alive, bounce, lights, next, is_found_by_both, rounds);
         }
         if (integrator_ == Integrator::Optimal) rounds_.move_to(sums, asked, asks_first, S::LightTable::counts);
         return found;
@@ -164,23 +164,35 @@ class PathTracer {
         std::size_t group;
         float count;  // of the group's draws
     };
-    using Draws = std::array<Draw, S::LightTable::samples>;
+    struct Draws {
+        std::array<Draw, S::LightTable::samples> all{};
+        std::size_t count = 0;
+
+        [[nodiscard]] auto begin() { return all.begin(); }
+        [[nodiscard]] auto end() { return all.begin() + static_cast<std::ptrdiff_t>(count); }
+        [[nodiscard]] auto begin() const { return all.begin(); }
+        [[nodiscard]] auto end() const { return all.begin() + static_cast<std::ptrdiff_t>(count); }
+    };
+
+    // What falls on the first surface is seen best; further on, one sample of a group is enough.
+    [[nodiscard]] static constexpr std::size_t samples_of(const auto& group, int bounce) {
+        return bounce == 1 ? std::remove_cvref_t<decltype(group)>::samples : 1;
+    }
 
     // Uniforms are spent whether or not a lane asks: what one lane finds does not depend on the others.
-    LUMIS_INLINE void draw_from(const auto& lights, const Mask<R>& asks, Draws& draws) {
-        std::size_t at = 0;
+    LUMIS_INLINE void draw_from(const auto& lights, int bounce, const Mask<R>& asks, Draws& draws) {
         scene_.lights().for_each([&](const auto& group, auto g) {
-            constexpr std::size_t count = std::remove_cvref_t<decltype(group)>::samples;
+            const std::size_t count = samples_of(group, bounce);
             for (std::size_t i = 0; i < count; ++i) {
                 glm::vec<3, R> u = uniforms_.template next<3>();
                 if (!any(asks)) continue;
                 u.x = (u.x + static_cast<float>(i)) * (1.0f / static_cast<float>(count));
                 const LightDraw<R> light = std::get<g>(lights).sample(u);
-                draws[at++] = {light,
-                               effective(static_cast<float>(count) * light.pdf),
-                               {black, R(0.0f)},
-                               g,
-                               static_cast<float>(count)};
+                draws.all[draws.count++] = {light,
+                                            effective(static_cast<float>(count) * light.pdf),
+                                            {black, R(0.0f)},
+                                            g,
+                                            static_cast<float>(count)};
             }
         });
     }
@@ -293,8 +305,9 @@ class PathTracer {
 
     // Light that the BSDF's ray meets, weighted: light sampling, as seen from the ray's origin, could have found it too.
     [[nodiscard]] LUMIS_INLINE Vector<R> emitted(const Ray<R>& ray, const Hit<R>& hit, const Surfaces& on,
-                                                 const Mask<R>& alive, const auto& lights, const Scattered& drawn,
-                                                 const Mask<R>& is_found_by_both, Rounds* rounds) const {
+                                                 const Mask<R>& alive, int bounce, const auto& lights,
+                                                 const Scattered& drawn, const Mask<R>& is_found_by_both,
+                                                 Rounds* rounds) const {
         Vector<R> result = black;
         scene_.lights().for_each([&](const auto& group, auto g) {
             const Mask<R> is_met = meets<g>(group, on, alive);
@@ -309,7 +322,7 @@ class PathTracer {
                 radiance = group.template radiance<R>(light);
                 light_pdf = std::get<g>(lights).pdf_from_hit(light, hit.distance, glm::dot(hit.normal, ray.direction));
             }
-            constexpr auto count = static_cast<float>(std::remove_cvref_t<decltype(group)>::samples);
+            const auto count = static_cast<float>(samples_of(group, bounce));
             const R own = effective(drawn.pdf), other = effective(count * light_pdf);
             const R weight =
                 lumis::real::select(is_found_by_both, weight_of_bsdf_sample(integrator_, own, other), R(1.0f));
