@@ -6,6 +6,7 @@
 #include <glm/trigonometric.hpp>
 
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace tracer {
@@ -21,13 +22,19 @@ class Cornell : public SceneParts<Materials<Diffuse<float>, Coated<float>>,
 
         const glm::vec3 x{2, 0, 0}, y{0, 2, 0}, z{0, 0, 2}, corner{-1};
         geometry_.add(lumis::Parallelogram{corner, x, z}, white);      // floor
-        geometry_.add(lumis::Parallelogram{corner + y, x, z}, white);  // ceiling
         geometry_.add(lumis::Parallelogram{corner, x, y}, white);      // back
         geometry_.add(lumis::Parallelogram{corner, y, z}, red);        // left
         geometry_.add(lumis::Parallelogram{corner + x, y, z}, green);  // right
         add_box({-0.36f, -1, -0.32f}, {0.6f, 1.2f, 0.6f}, 18, glossy);
         add_box({0.36f, -1, 0.34f}, {0.6f, 0.6f, 0.6f}, -17, white);
-        const lumis::Parallelogram<float> light{{-0.25f, 0.99f, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}};
+        // The lamp fills a hole in the ceiling, which four pieces surround.
+        const lumis::Parallelogram<float> light{{-0.25f, 1, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f}};
+        for (const auto& [from, width, depth] : {std::tuple{glm::vec3{-1, 1, -1}, 0.75f, 2.0f},
+                                                 {{0.25f, 1, -1}, 0.75f, 2.0f},
+                                                 {{-0.25f, 1, -1}, 0.5f, 0.75f},
+                                                 {{-0.25f, 1, 0.25f}, 0.5f, 0.75f}}) {
+            geometry_.add(lumis::Parallelogram{from, glm::vec3{width, 0, 0}, glm::vec3{0, 0, depth}}, white);
+        }
         geometry_.add(light, lights_.add<0>(light, glm::vec3{18, 14, 8}));
         geometry_.commit();
     }
