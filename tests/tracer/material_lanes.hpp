@@ -10,14 +10,16 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <type_traits>
 #include <vector>
 
 namespace subjects {
 
-// Eight materials, gathered as a packet of paths gathers them, against each of them alone.
+// A packet of materials, gathered as a packet of paths gathers them, against each of them alone.
 template <class M>
 class LanesAndNumbers {
   public:
@@ -63,7 +65,9 @@ class LanesAndNumbers {
   private:
     template <class To>
     static To gathered(const auto& of_each) {
-        return gather<To, Packet>(of_each, {0, 1, 2, 3, 4, 5, 6, 7});
+        Indices<Packet> all;
+        std::iota(all.begin(), all.end(), std::uint32_t{0});
+        return gather<To, Packet>(of_each, all);
     }
 
     // Of a delta material its coefficient.
