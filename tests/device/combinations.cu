@@ -21,6 +21,7 @@ struct Parts {
     AliasTableView<float> powers;
     std::span<const Light> lights;
     InFrame<GgxReflection<float>> bsdf;
+    LightTreeView<float> tree;
 };
 
 // Weights of each heuristic for three densities.
@@ -163,9 +164,10 @@ struct Estimates {
     }
 };
 
-// Candidates of one source, of several under each kind of weights, of lights one by one, and a reservoir merged.
+// Candidates of one source, of several under each kind of weights, of lights one by one, selected by power and by a tree, and a
+// reservoir merged.
 struct Candidates {
-    static constexpr int size = 7;
+    static constexpr int size = 8;
     Parts parts;
 
     LUMIS_HD void operator()(unsigned index, float* out) const {
@@ -174,6 +176,7 @@ struct Candidates {
         const auto f = [](const glm::vec3& w) { return 1 + w.y * w.y; };
         const auto by_distance = [](const AnySample auto& s) { return 1 / (1 + s.distance); };
         const SelectedLight one{LightSet{parts.lights, parts.powers}};
+        const SelectedLight by_tree{LightSet{parts.lights, parts.tree.from(glm::vec3{0}, {0, 0, 1})}};
         const auto both = resample(PairwiseWeights{}, target, take(2, parts.bsdf), take(1, parts.sky),
                                    take(1, UniformSphere<float>{}));
         const auto kept = both.sample(uniforms), others = both.sample(uniforms);
@@ -187,6 +190,7 @@ struct Candidates {
             resample(target, 4, choose(0.5f, parts.bsdf), choose(0.5f, parts.sky)).estimate(f, uniforms),
             both.estimate(f, uniforms),
             resample(by_distance, take(4, one)).estimate(by_distance, uniforms),
+            resample(by_distance, take(2, by_tree)).estimate(by_distance, uniforms),
             merged.item().x,
             merged.inverse_probability()};
         for (int i = 0; i < size; ++i) out[i] = numbers[i];
@@ -200,6 +204,7 @@ static_assert(composes_trivially<decltype(multi_sample(PowerHeuristic{}, take(1,
 static_assert(composes_trivially<decltype(Mixture{choose(0.5, std::declval<Parts>().sky),
                                                   choose(0.5, CosineHemisphere<float>{})})>);
 static_assert(composes_trivially<LightSet<std::span<const Light>, AliasTableView<float>>>);
+static_assert(composes_trivially<LightSet<std::span<const Light>, LightTreeFrom<float>>>);
 
 // The host's own estimator with what no device has: an engine of the standard library, and a vector that grows.
 bool host_estimates(const EnvironmentMap<float>& sky, const AliasTable<float>& powers,
@@ -230,7 +235,13 @@ int main() {
     const EnvironmentMap sky{64, 32, luminance};
     const AliasTable powers{std::vector<float>{1, 2, 3}};
     std::vector<Light> lights;
-    for (const float x : {-1.0f, 0.0f, 1.5f}) lights.emplace_back(Sphere<float>{{x, 1, 3}, 0.4f}, glm::vec3{0});
+    std::vector<LightBounds<float>> bounds;
+    for (const float x : {-1.0f, 0.0f, 1.5f}) {
+        const Sphere<float> sphere{{x, 1, 3}, 0.4f};
+        lights.emplace_back(sphere, glm::vec3{0});
+        bounds.push_back(light_bounds(sphere, 1));
+    }
+    const LightTree tree{bounds};
     const Frame frame{glm::vec3{0, 0.6f, 0.8f}};
     const auto bsdf = in_frame(frame, GgxReflection<float>{{0, 0.6f, 0.8f}, glm::vec2{0.3f}});
     if (!host_estimates(sky, powers, lights)) {
@@ -240,8 +251,9 @@ int main() {
     if (!device::is_present()) return device::skipped;
 
     device::Copies copies;
-    const Parts here{sky.view(), powers.view(), lights, bsdf};
-    const Parts there{sky.view(copies), powers.view(copies), copies(std::span<const Light>{lights}), bsdf};
+    const Parts here{sky.view(), powers.view(), lights, bsdf, tree.view()};
+    const Parts there{sky.view(copies), powers.view(copies), copies(std::span<const Light>{lights}), bsdf,
+                      tree.view(copies)};
     bool good = device::agrees("heuristics", Heuristics{}, Heuristics{});
     good &= device::agrees("plans", Plans{}, Plans{});
     good &= device::agrees("mixtures and light sets", Mixtures{here}, Mixtures{there});
