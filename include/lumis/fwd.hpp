@@ -165,6 +165,8 @@ template <std::floating_point T>
 class LightTreeView;
 template <std::floating_point T, int Uniforms>
 class LightTreeFrom;
+template <Real R>
+class LightTreeFromLanes;
 
 // combine
 struct BalanceHeuristic;

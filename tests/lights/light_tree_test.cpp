@@ -276,6 +276,29 @@ TEST_CASE("a light tree is shallow wherever the lights are", "[light_tree]") {
     CHECK(std::abs(sum - 1) <= 1e-12);
 }
 
+TEST_CASE("a light tree seen from a point in each lane", "[light_tree][lanes]") {
+    using Four = lumis::Lanes<float, 4>;
+    const LightTree tree{random_lights<float>(100, 8)};
+    RandomPoints random{9};
+    const auto lanes = [&] { return Four::of_lanes([&](auto) { return static_cast<float>(random.number(0, 1)); }); };
+    const glm::vec<3, Four> points{lanes(), lanes(), lanes()}, normals{Four{0}, Four{0}, Four{1}};
+    const glm::vec<1, Four> u{lanes()};
+    const auto check = [&](const auto& seen, auto alone) {
+        const auto drawn = seen.sample(u);
+        const Four pdf = seen.pdf(drawn.value);
+        for (std::size_t i = 0; i < 4; ++i) {
+            const auto one = alone(glm::vec3{points.x[i], points.y[i], points.z[i]}).sample(glm::vec1{u.x[i]});
+            CHECK(drawn.value[i] == one.value);
+            CHECK(drawn.pdf[i] == one.pdf);
+            CHECK((pdf[i] == one.pdf || !(one.pdf > 0)));
+            CHECK(seen[i].pdf(one.value) == pdf[i]);
+        }
+        CHECK(seen.size() == 100);
+    };
+    check(tree.from(points), [&](const glm::vec3& point) { return tree.from(point); });
+    check(tree.from(points, normals), [&](const glm::vec3& point) { return tree.from(point, {0, 0, 1}); });
+}
+
 TEST_CASE("a view of a light tree draws the same from copies of its arrays", "[light_tree]") {
     const LightTree tree{random_lights<float>(100, 6)};
     Copies copies;

@@ -17,6 +17,7 @@
 #include <concepts>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 namespace lumis::LUMIS_ISA {
 

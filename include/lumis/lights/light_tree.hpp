@@ -15,6 +15,7 @@
 #pragma once
 
 #include "lumis/core/assert.hpp"
+#include "lumis/core/detail/in_lanes.hpp"
 #include "lumis/core/detail/spannable.hpp"
 #include "lumis/core/measure.hpp"
 #include "lumis/core/platform.hpp"
@@ -27,6 +28,7 @@
 #include "lumis/lights/light_bounds.hpp"
 #include "lumis/tables/detail/arrays.hpp"
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -119,6 +121,43 @@ class LightTreeFrom {
     detail::LitPoint<T> at_;
 };
 
+// The same from a point in each lane, R: an index for each, found for one lane after another. Made by LightTree::from.
+template <Real R>
+class LightTreeFromLanes {
+  public:
+    using Scalar = scalar_of<R>;
+    using Indices = std::array<std::size_t, R::size>;
+    static constexpr int dimensions = 1;
+
+    // With a probability of 0 nothing was drawn in that lane.
+    [[nodiscard]] LUMIS_HD Sample<Indices, R> sample(const glm::vec<1, R>& u) const noexcept {
+        Sample<Indices, R> result;
+        for (std::size_t i = 0; i < R::size; ++i) {
+            const auto drawn = lanes_[i].sample(glm::vec<1, Scalar>{u.x[i]});
+            result.value[i] = drawn.value;
+            result.pdf.set(i, drawn.pdf);
+        }
+        return result;
+    }
+
+    [[nodiscard]] LUMIS_HD R pdf(const Indices& index) const noexcept {
+        return R::of_lanes([&](auto i) { return lanes_[i].pdf(index[i]); });
+    }
+
+    [[nodiscard]] LUMIS_HD std::size_t size() const noexcept { return lanes_[0].size(); }
+
+    // As seen from the point of lane i: a table for LightSet.
+    [[nodiscard]] LUMIS_HD const LightTreeFrom<Scalar>& operator[](std::size_t i) const noexcept { return lanes_[i]; }
+
+  private:
+    template <std::floating_point, template <class> class>
+    friend class detail::BasicLightTree;
+    LUMIS_HD explicit LightTreeFromLanes(const std::array<LightTreeFrom<Scalar>, R::size>& lanes) noexcept
+        : lanes_{lanes} {}
+
+    std::array<LightTreeFrom<Scalar>, R::size> lanes_;
+};
+
 namespace detail {
 
 // What LightTree and LightTreeView share.
@@ -144,6 +183,19 @@ class BasicLightTree {
     [[nodiscard]] LUMIS_HD LightTreeFrom<T> from(const glm::vec<3, T>& point,
                                                  const Direction<T>& normal) const noexcept LUMIS_LIFETIME_BOUND {
         return seen<1>(point, normal, true);
+    }
+    // The same from a point, and with a normal, in each lane.
+    template <RealOf<T> R>
+        requires(!std::same_as<R, T>)
+    [[nodiscard]] LUMIS_HD LightTreeFromLanes<R> from(const glm::vec<3, R>& points) const noexcept
+        LUMIS_LIFETIME_BOUND {
+        return in_lanes<R>([&](std::size_t i) { return from(lane_of(points, i)); });
+    }
+    template <RealOf<T> R>
+        requires(!std::same_as<R, T>)
+    [[nodiscard]] LUMIS_HD LightTreeFromLanes<R> from(const glm::vec<3, R>& points,
+                                                      const Direction<R>& normals) const noexcept LUMIS_LIFETIME_BOUND {
+        return in_lanes<R>([&](std::size_t i) { return from(lane_of(points, i), lane_of(normals, i)); });
     }
     // The same with 2^48 counts, see FineAliasTable: the second uniform refines the first.
     [[nodiscard]] LUMIS_HD LightTreeFrom<T, 2> from_finely(const glm::vec<3, T>& point) const noexcept
@@ -194,6 +246,14 @@ class BasicLightTree {
   private:
     template <std::floating_point, template <class> class>
     friend class BasicLightTree;
+
+    template <Real R>
+    [[nodiscard]] LUMIS_HD static LightTreeFromLanes<R> in_lanes(auto from_lane) noexcept {
+        const auto all = [&]<std::size_t... I>(std::index_sequence<I...>) {
+            return std::array<LightTreeFrom<T>, R::size>{from_lane(I)...};
+        };
+        return LightTreeFromLanes<R>{all(std::make_index_sequence<R::size>{})};
+    }
 };
 
 }  // namespace detail
