@@ -96,6 +96,8 @@ Measured mixtures(Effort effort);
 template <class T>
 Measured light_sets(Effort effort);
 template <class T>
+Measured light_trees(Effort effort);
+template <class T>
 Measured pairwise_weights(Effort effort);
 template <class T>
 Measured reservoir_of_many(Effort effort);
