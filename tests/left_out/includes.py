@@ -34,7 +34,7 @@ BUILT_UPON = [
     (r"microfacets/(detail/|ggx_|smooth_)dielectric\w*", r"microfacets/(fresnel|transport_mode|ggx_reflection)"),
     (r"lights/(detail/\w+|area_light\w*|image_light|light_bounds|light_tree|surface\w*|pdf_from_hit)",
      r"lights/(shapes|surface)"),
-    (r"lights/(light_tree|detail/(light_tree_builder|normal_cone))", r"lights/light_bounds"),
+    (r"lights/(light_tree|detail/(light_\w+|normal_cone))", r"lights/light_bounds"),
     (r"lights/area_light_by_solid_angle", r"lights/area_light"),
     (r"lights/(area_light_by_cosine|surface_light|pdf_from_hit|detail/hit_density)",
      r"lights/area_light(_by_solid_angle)?"),

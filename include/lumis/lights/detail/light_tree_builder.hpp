@@ -1,15 +1,13 @@
 // Builds the nodes of a light tree, top down: lights are sorted into bins along each axis, and divided where the cost of both
 // sides is least (Conty Estevez and Kulla 2018, section 4.3). O(n log n).
-//
-// The cost of a set of lights is its intensity, times the squared radius of its box, times 1 + r^2, where r is the radius of
-// the box about its axes, as points of [-1, 1]^3. pi (1 + r^2) stands for the paper's M_Omega for emission into hemispheres:
-// both are pi where all axes agree and 4 pi where any may occur; in between it takes no trigonometry.
 #pragma once
 
 #include "lumis/core/platform.hpp"
 #include "lumis/core/real.hpp"
 #include "lumis/core/throw.hpp"
 #include "lumis/lights/detail/flat_shape.hpp"
+#include "lumis/lights/detail/light_bounds_checks.hpp"
+#include "lumis/lights/detail/light_group.hpp"
 #include "lumis/lights/detail/light_tree_node.hpp"
 #include "lumis/lights/detail/normal_cone.hpp"
 #include "lumis/lights/light_bounds.hpp"
@@ -30,52 +28,6 @@
 
 namespace lumis::LUMIS_ISA::detail {
 
-template <std::floating_point T>
-struct Box {
-    glm::vec<3, T> lower{(std::numeric_limits<T>::max)()}, upper{-(std::numeric_limits<T>::max)()};
-
-    void add(const Box& box) noexcept {
-        for (int k = 0; k < 3; ++k) {
-            lower[k] = real::lesser(lower[k], box.lower[k]);
-            upper[k] = real::greater(upper[k], box.upper[k]);
-        }
-    }
-    [[nodiscard]] glm::vec<3, T> center() const noexcept { return lower / T(2) + upper / T(2); }
-    [[nodiscard]] glm::vec<3, T> half() const noexcept { return upper / T(2) - lower / T(2); }
-};
-
-// A light on its way into the tree.
-template <std::floating_point T>
-struct LightToPlace {
-    Box<T> place, axes;
-    T intensity;  // the largest of all is 1
-    std::uint32_t index;
-};
-
-// A number of lights together.
-template <std::floating_point T>
-struct LightGroup {
-    Box<T> place{}, axes{};
-    double intensity{};
-    std::size_t lights{};
-
-    void add(const auto& other) noexcept {
-        place.add(other.place);
-        axes.add(other.axes);
-        intensity += static_cast<double>(other.intensity);
-        if constexpr (requires { other.lights; }) {
-            lights += other.lights;
-        } else {
-            ++lights;
-        }
-    }
-    // In units of the squared extent of what is divided.
-    [[nodiscard]] double cost(double inverse_extent) const noexcept {
-        const glm::vec<3, double> half = glm::vec<3, double>(place.half()) * inverse_extent, spread(axes.half());
-        return intensity * glm::dot(half, half) * (1 + glm::dot(spread, spread));
-    }
-};
-
 // The two-bit number of the child at each level, the root's in the lowest bits.
 using LightPath = std::uint64_t;
 inline constexpr LightPath not_in_tree = ~LightPath{0};
@@ -94,7 +46,7 @@ class LightTreeBuilder {
   public:
     explicit LightTreeBuilder(std::span<const LightBounds<T>> bounds) : bounds_{bounds} {
         for (std::size_t i = 0; i < bounds.size(); ++i) {
-            require_bounds(i);
+            require_light_bounds(bounds[i], i);
             largest_ = real::greater(largest_, bounds[i].intensity);
         }
         built_.paths.assign(bounds.size(), not_in_tree);
@@ -136,33 +88,6 @@ class LightTreeBuilder {
         if (lights_.size() > most) {
             refuse("lumis: a light tree of " + std::to_string(lights_.size()) + " lights; there may be " +
                    std::to_string(most));
-        }
-    }
-
-    void require_bounds(std::size_t i) const {
-        const LightBounds<T>& light = bounds_[i];
-        if (!is_weight(light.intensity)) {
-            refuse("lumis: the intensity of light " + std::to_string(i) + " is " + std::to_string(light.intensity) +
-                   "; intensities must be finite and not negative");
-        }
-        const auto refuse_bounds = [&](const std::string& what, T value, const std::string& must) {
-            refuse("lumis: " + what + " of light " + std::to_string(i) + " is " + std::to_string(value) + "; " + must);
-        };
-        constexpr T most = (std::numeric_limits<T>::max)() / 4;
-        for (int k = 0; k < 3; ++k) {
-            for (const T x : {light.lower[k], light.upper[k]}) {
-                if (!(real::abs(x) <= most)) refuse_bounds("a bound", x, "bounds must be finite");
-            }
-            if (!(light.lower[k] <= light.upper[k])) {
-                refuse_bounds("the lower bound", light.lower[k],
-                              "the upper one must not be less, and is " + std::to_string(light.upper[k]));
-            }
-            if (!(real::abs(light.axis[k]) <= most)) {
-                refuse_bounds("a component of the axis", light.axis[k], "axes must be finite");
-            }
-        }
-        if (!(real::abs(light.cos_cone) <= T(1.001))) {
-            refuse_bounds("cos_cone", light.cos_cone, "a cosine is from -1 to 1");
         }
     }
 
