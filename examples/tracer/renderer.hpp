@@ -30,6 +30,7 @@ class Renderer {
 struct SceneOptions {
     int width{}, height{};    // in pixels
     std::string environment;  // file of an environment map; empty: the one shipped
+    std::string mesh{};       // OBJ file of the scene mesh; empty: the one shipped
 };
 
 struct SceneEntry {
