@@ -51,11 +51,15 @@ std::string transform_error(std::string& text) {
 }
 
 // What no option by itself shows.
-void check_together(const Settings& settings, bool has_environment) {
+void check_together(const Settings& settings, bool has_environment, bool has_mesh) {
     if (has_environment && !find_scene(settings.scene)->has_sky) {
         throw CLI::ValidationError("--env", "the scene " + settings.scene + " has no sky");
     }
     if (has_environment && settings.environment.empty()) throw CLI::ValidationError("--env", "the file has no name");
+    if (has_mesh && settings.scene != "mesh") {
+        throw CLI::ValidationError("--mesh", "the scene " + settings.scene + " has no mesh");
+    }
+    if (has_mesh && settings.mesh.empty()) throw CLI::ValidationError("--mesh", "the file has no name");
     std::set<std::filesystem::path> files;
     const auto require_new = [&](const std::string& option, const std::string& file) {
         if (file.empty() || files.insert(weakly_canonical(absolute(std::filesystem::path{file}))).second) return;
@@ -72,6 +76,7 @@ Origin origin_of(const Settings& settings) {
     return {{"version", std::to_string(LUMIS_VERSION)},
             {"scene", settings.scene},
             {"env", settings.environment.empty() ? "the scene's own" : checksum_of_file(settings.environment)},
+            {"mesh", settings.mesh.empty() ? "the scene's own" : checksum_of_file(settings.mesh)},
             {"integrator", settings.integrator},
             {"bounces", std::to_string(settings.bounces)},
             {"sampler", settings.sampler},
@@ -89,12 +94,12 @@ std::variant<Settings, int> parse_command_line(int argc, char** argv) {
         "Ends at whichever of --spp, --seconds and --error is reached first; Ctrl-C writes what there is."};
     const auto add_name = [&](const char* option, std::string& name, const std::vector<std::string>& names,
                               const char* description) {
-        app.add_option(option, name, description)->check(CLI::IsMember(names))->capture_default_str();
+        return app.add_option(option, name, description)->check(CLI::IsMember(names))->capture_default_str();
     };
     const CLI::Validator is_output{check_output, ""}, is_positive{check_seconds, ""};
     const CLI::Range is_size{1, 16384};
 
-    add_name("--scene", settings.scene, names_of(scenes()), "What to render");
+    const auto* has_scene = add_name("--scene", settings.scene, names_of(scenes()), "What to render");
     add_name("--integrator", settings.integrator, {integrator_names().begin(), integrator_names().end()},
              "How to estimate its light");
     app.add_option("--bounces", settings.bounces, "Of a path: 0 shows what emits light, 1 adds direct light")
@@ -119,8 +124,11 @@ std::variant<Settings, int> parse_command_line(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--width", settings.width, "In pixels; the scene's own by default")->check(is_size);
     app.add_option("--height", settings.height, "In pixels; the scene's own by default")->check(is_size);
-    const auto* has_environment = app.add_option(
-        "--env", settings.environment, "Environment map of the scene sky, latitude-longitude: .hdr, .exr or .png");
+    const auto* has_environment =
+        app.add_option("--env", settings.environment,
+                       "Environment map of the scenes sky and mesh, latitude-longitude: .hdr, .exr or .png");
+    const auto* has_mesh =
+        app.add_option("--mesh", settings.mesh, "OBJ file of the scene mesh, which it implies; y is up");
     app.add_option(
            "--output", settings.outputs,
            "A .png for the eye, a .exr for the linear values and layers (albedo, normal, variance, samples), or "
@@ -143,7 +151,8 @@ std::variant<Settings, int> parse_command_line(int argc, char** argv) {
         if (checkpoint->count() > 0 && settings.checkpoint.empty()) {
             throw CLI::ValidationError("--checkpoint", "the file has no name");
         }
-        check_together(settings, has_environment->count() > 0);
+        if (has_mesh->count() > 0 && has_scene->count() == 0) settings.scene = "mesh";
+        check_together(settings, has_environment->count() > 0, has_mesh->count() > 0);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }

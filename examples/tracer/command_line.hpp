@@ -21,6 +21,7 @@ struct Settings {
     int threads = 1;
     int width = 0, height = 0;  // of the scene itself unless asked otherwise
     std::string environment;    // file of a map; empty: the one shipped
+    std::string mesh;           // OBJ file; empty: the one shipped
     std::vector<std::string> outputs{"render.png"};
     std::string error_output;  // empty: none, and so is checkpoint
     std::string checkpoint;

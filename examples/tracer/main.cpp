@@ -165,7 +165,7 @@ int run(const Settings& settings) {
     try {
         Saving saving{settings};
         Checkpoint rendering = saving.begin(settings, width, height);
-        const auto renderer = scene.make({width, height, settings.environment});
+        const auto renderer = scene.make({width, height, settings.environment, settings.mesh});
         Interruption::watch();
         render(*renderer, settings, rendering, saving);
         any = rendering.film.samples() > 0;
