@@ -13,7 +13,6 @@ struct View {
     Vec position, target;
     float degrees;  // field of view on the smaller axis
     int width, height;
-    bool jitter = true;  // rays through all of a pixel; else through its centre
 
     // Up is +y; (0, 0) is the upper left corner of the image, (width, height) the lower right one.
     [[nodiscard]] Vec direction(float x, float y) const {
@@ -41,8 +40,7 @@ template <class Parts>
         for (std::size_t k = 0; k < static_cast<std::size_t>(samples); ++k) {
             PathSampler sampler{points, k, seed * pixels + i};
             const float x = sampler.next(), y = sampler.next();
-            const Vec direction = view.direction(static_cast<float>(i % width) + (view.jitter ? x : 0.5f),
-                                                 static_cast<float>(i / width) + (view.jitter ? y : 0.5f));
+            const Vec direction = view.direction(static_cast<float>(i % width) + x, static_cast<float>(i / width) + y);
             sum = sum + radiance(scene, parts, view.position, direction, sampler, bounces);
         }
         image[i] = 1 / static_cast<float>(samples) * sum;
