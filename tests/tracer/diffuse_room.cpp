@@ -7,26 +7,25 @@ namespace {
 
 class DiffuseRoom {
   public:
-    using Material = std::variant<Diffuse>;
+    using MaterialTable = Materials<Diffuse<float>>;
+    using LightTable = Lights<FewLights<lumis::Parallelogram, lumis::ByArea>>;
 
     DiffuseRoom() {
-        geometry_.add(lumis::Parallelogram{glm::vec3{-5, -1, -5}, glm::vec3{10, 0, 0}, glm::vec3{0, 0, 10}}, {0});
-        geometry_.add(light_, {0, glm::vec3{4}});
+        geometry_.add(lumis::Parallelogram{glm::vec3{-5, -1, -5}, glm::vec3{10, 0, 0}, glm::vec3{0, 0, 10}},
+                      materials_.add(Diffuse<float>{glm::vec3{0.7f}}));
+        const lumis::Parallelogram<float> light{{-0.5f, 1, -0.5f}, {1, 0, 0}, {0, 0, 1}};
+        geometry_.add(light, lights_.add<0>(light, glm::vec3{4}));
         geometry_.commit();
     }
 
     [[nodiscard]] const Geometry& geometry() const { return geometry_; }
-    [[nodiscard]] const Material& material(const Surface& /*surface*/) const { return white_; }
-    [[nodiscard]] static glm::vec3 background(const glm::vec3& /*w*/) { return glm::vec3{0}; }
-    [[nodiscard]] auto lights_at(const Vertex& vertex) const {
-        using Strategy = lumis::AreaLight<lumis::Parallelogram<float>>;
-        return std::tuple{Light<Strategy>{Strategy{light_, vertex.position}, true}};
-    }
+    [[nodiscard]] const MaterialTable& materials() const { return materials_; }
+    [[nodiscard]] const LightTable& lights() const { return lights_; }
 
   private:
-    Material white_ = Diffuse{glm::vec3{0.7f}};
-    lumis::Parallelogram<float> light_{{-0.5f, 1, -0.5f}, {1, 0, 0}, {0, 0, 1}};
     Geometry geometry_;
+    MaterialTable materials_;
+    LightTable lights_;
 };
 
 }  // namespace
