@@ -27,7 +27,7 @@ using tracer::Image;
 struct Estimator {
     std::string_view integrator;
     tracer::RenderOptions options;
-    bool is_whole;  // its samples are the points of one set: a run of another length starts anew
+    bool is_whole;  // its samples are the points of one set, or are learnt from together: another length starts anew
 };
 
 // One estimator's run to growing sample counts.
@@ -85,27 +85,27 @@ Measurement measure(const Run& run, const Image& image, const ReferenceImage& re
 }
 
 // Counts and probabilities are those of the scene's types: as many samples as it has techniques, or one of two halves.
-Recipe recipe(const std::string& integrator) {
+Recipe recipe(std::string_view integrator) {
     if (integrator == "bsdf" || integrator == "light") return {"alone"};
     if (integrator == "one-sample") return {"one-sample", "balance"};
-    return {"multi-sample", integrator};
+    if (integrator == "optimal") return {"optimal"};
+    return {"multi-sample", std::string{integrator}};
 }
 
 // All integrators with random numbers, which makes them comparable, and power once more with Sobol's points.
 std::pair<std::vector<Series>, std::vector<Estimator>> contestants(tracer::RenderOptions options) {
     std::pair<std::vector<Series>, std::vector<Estimator>> result;
-    const auto enter = [&](std::string name, std::string_view integrator, tracer::Sampler sampler, bool is_whole) {
-        options.sampler = sampler;
+    const auto enter = [&](std::string_view name, std::string_view integrator, const Recipe& recipe, bool is_whole) {
         result.second.push_back({integrator, options, is_whole});
         Series& series = result.first.emplace_back();
-        series.name = std::move(name);
+        series.name = name;
+        series.recipe = recipe;
         series.is_whole = is_whole;
-        series.recipe = is_whole ? Recipe{"sobol", "power"} : recipe(series.name);
     };
-    for (const auto integrator : tracer::integrator_names()) {
-        enter(std::string{integrator}, integrator, tracer::Sampler::Random, false);
-    }
-    enter("sobol", "power", tracer::Sampler::Sobol, true);
+    options.sampler = tracer::Sampler::Random;
+    for (const auto name : tracer::integrator_names()) enter(name, name, recipe(name), name == "optimal");
+    options.sampler = tracer::Sampler::Sobol;
+    enter("sobol", "power", {"sobol", "power"}, true);
     return result;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "environment.hpp"
+#include "many_lights.hpp"
 #include "scene_renderer.hpp"
 
 #include <concepts>
@@ -83,7 +84,8 @@ template <class... Own>
     const auto all_kinds =
         std::tuple_cat(kind_unless_there<Diffuse<float>, Own...>(), kind_unless_there<Coated<float>, Own...>(),
                        kind_unless_there<Metal<float>, Own...>(), kind_unless_there<Mirror<float>, Own...>(),
-                       kind_unless_there<RoughGlass<float>, Own...>(), kind_unless_there<SmoothGlass<float>, Own...>());
+                       kind_unless_there<RoughGlass<float>, Own...>(), kind_unless_there<SmoothGlass<float>, Own...>(),
+                       kind_unless_there<Absorbing<SmoothGlass<float>>, Own...>());
     return std::apply(
         [&](auto... missing) {
             Materials<Own..., typename decltype(missing)::type...> table;
@@ -104,6 +106,7 @@ template <class... Own>
     const auto all_groups =
         std::tuple_cat(own, group_unless_there<FewLights<lumis::Sphere, lumis::BySolidAngle>, Own...>(),
                        group_unless_there<FewLights<lumis::Parallelogram, lumis::ByArea>, Own...>(),
+                       group_unless_there<ManyLights<lumis::Parallelogram, lumis::BySolidAngle>, Own...>(),
                        group_unless_there<Environment, Own...>());
     return std::apply([](auto... groups) { return Lights{std::move(groups)...}; }, all_groups);
 }
