@@ -3,15 +3,15 @@
 
     sudo apt-get install -y libllvm19 python3-venv  # any LLVM that Dr.Jit finds, or that DRJIT_LIBLLVM_PATH names
     python3 -m venv build/mitsuba && build/mitsuba/bin/pip install mitsuba numpy
-    CXXFLAGS=-march=native cmake --preset demo && cmake --build build/demo --target tracer
+    cmake --preset demo && cmake --build build/demo --target tracer
     build/mitsuba/bin/python bench/against_mitsuba.py                                    # half an hour
     build/mitsuba/bin/python bench/against_mitsuba.py --scenes sky --bounces 1 --quick   # half a minute, numbers are rough
 
-Both renderers have the same camera, box filter, depth, materials and lights, and Mitsuba compiles for this processor, so
-the tracer should be, too. Mitsuba's path tracer with independent samples is in the table, and what does best in a trial
-of its integrators and samplers. First two references, of many samples, must agree: their means, and every block of 16 x 16
-pixels. Errors are relative to the mean of the two. CPU time is that of rendering, without loading and compiling. The
-product does not depend on the time where samples are independent; where they are stratified, it falls with time.
+Both renderers have the same camera, box filter, depth, materials and lights, and both are compiled for this processor.
+Mitsuba's path tracer with independent samples is in the table, and what does best in a trial of its integrators and
+samplers. First two references, of many samples, must agree: their means, and every block of 16 x 16 pixels. Errors are
+relative to the mean of the two. CPU time is that of rendering, without loading and compiling. The product does not depend on
+the time where samples are independent; where they are stratified, it falls with time.
 
 Does nothing, with a message, where Mitsuba or LLVM are missing.
 """
@@ -169,7 +169,7 @@ def agree(a, b):
     """
     def z(values):
         squares = (values * values).sum()
-        return values.sum() / math.sqrt(squares) if squares > 0 else 0.0
+        return 0.0 if squares == 0 else values.sum() / math.sqrt(squares)
 
     luminance = numpy.array([0.2126, 0.7152, 0.0722])
     for reference in (a, b):
