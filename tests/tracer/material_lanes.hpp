@@ -32,7 +32,7 @@ class LanesAndNumbers {
         std::vector<glm::vec3> wo, wi;
         for (std::size_t i = 0; i < Packet::size; ++i) {
             auto own = typical_;
-            for (float& x : own) x *= 0.6f + 0.4f * uniform_(engine_);
+            for (float& x : own) x *= 0.8f + 0.2f * uniform_(engine_);  // an index near 1 would magnify what is rounded
             wo.push_back(direction_above()), wi.push_back(direction_above());
             is_sound_[i] = !some_are_broken || i % 2 == 0;
             if (!is_sound_[i]) {
