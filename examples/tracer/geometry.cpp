@@ -109,7 +109,8 @@ Hit<R> Geometry::closest(const Ray<R>& ray, const Mask<R>& asked, Rays rays) con
     const Vector<R> normal{taken<R>(query.hit.Ng_x), taken<R>(query.hit.Ng_y), taken<R>(query.hit.Ng_z)};
     const R length = lumis::real::length(normal);
     const R inverse = 1.0f / lumis::real::divisor_where(length > 0.0f, length);
-    hit.normal = lumis::real::select(hit.is_met, normal * inverse, Vector<R>{R(0.0f)});
+    // Zeros are positive: a frame that stands on the normal depends on their sign, and kernels for one ray and for many differ.
+    hit.normal = lumis::real::select(hit.is_met, normal * inverse + R(0.0f), Vector<R>{R(0.0f)});
     return hit;
 }
 
