@@ -6,6 +6,7 @@
 #include "path.hpp"
 #include "renderer.hpp"
 #include "sampler.hpp"
+#include "task_order.hpp"
 #include "thread_clock.hpp"
 #include "transport.hpp"
 #include "type_name.hpp"
@@ -39,15 +40,20 @@ class SceneRenderer final : public Renderer {
         // Optimal weights are learnt from samples that are independent of each other.
         const Sampler sampler = chosen == Integrator::Optimal ? Sampler::Random : options.sampler;
         const auto add_pixels = [&](const oneapi::tbb::blocked_range<std::size_t>& pixels, double seconds) {
+            TaskOrder::task_begins();
             const ThreadClock clock;
             for (std::size_t i = pixels.begin(); i < pixels.end(); ++i) {
                 PixelUniforms<R> uniforms{sampler, seed, i, pass};
                 add_pixel(film.pixels[i], i, chosen, options, samples, uniforms);
             }
+            TaskOrder::task_ends();
             return seconds + clock.seconds();
         };
-        return oneapi::tbb::parallel_reduce(oneapi::tbb::blocked_range<std::size_t>{0, film.pixels.size(), 64}, 0.0,
-                                            add_pixels, std::plus<>{});
+        TaskOrder::call_begins();
+        const double seconds = oneapi::tbb::parallel_reduce(
+            oneapi::tbb::blocked_range<std::size_t>{0, film.pixels.size(), 64}, 0.0, add_pixels, std::plus<>{});
+        TaskOrder::call_ends();
+        return seconds;
     }
 
   private:
