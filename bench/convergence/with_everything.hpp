@@ -32,8 +32,8 @@ class Absent {
     template <lumis::Real R>
     class Seen {
       public:
-        Seen(const std::optional<Group>& group, const Receiver<R>& receiver) {
-            if (group) seen_.emplace(group->template seen_from<R>(receiver));
+        Seen(const std::optional<Group>& group, const Receiver<R>& receiver, std::size_t count) {
+            if (group) seen_.emplace(group->template seen_from<R>(receiver, count));
         }
         [[nodiscard]] LightDraw<R> sample(const glm::vec<3, R>& u) const {
             if (seen_) return seen_->sample(u);
@@ -51,8 +51,8 @@ class Absent {
         std::optional<typename Group::template Seen<R>> seen_;
     };
     template <lumis::Real R>
-    [[nodiscard]] Seen<R> seen_from(const Receiver<R>& receiver) const {
-        return Seen<R>{group_, receiver};
+    [[nodiscard]] Seen<R> seen_from(const Receiver<R>& receiver, std::size_t count) const {
+        return Seen<R>{group_, receiver, count};
     }
 
   private:

@@ -65,10 +65,13 @@ class FewLights {
         return emitters_.template radiance<R>(light);
     }
 
+    // With as many samples as lights each is taken once; with fewer they go to those that can cause the most.
     template <lumis::Real R>
     class Seen {
       public:
-        Seen(const FewLights& lights, const Receiver<R>& receiver) : lights_{lights}, position_{receiver.position} {
+        Seen(const FewLights& lights, const Receiver<R>& receiver, std::size_t count)
+            : lights_{lights}, position_{receiver.position} {
+            const bool takes_each = count >= lights.extents_.size();
             for (std::size_t i = 0; i < lights.extents_.size(); ++i) {
                 const Extent<float>& one = lights.extents_[i];
                 const Vector<R> to_center = Vector<R>(one.center) - position_;
@@ -77,7 +80,8 @@ class FewLights {
                 const R cosine = lumis::real::lesser((height + one.radius) / distance, 1.0f);
                 const R has_side = glm::dot(receiver.normal, receiver.normal);
                 const R received = lumis::real::select(has_side > 0.0f, lumis::real::greater(cosine, 0.0f), R(1.0f));
-                total_ += one.area * received / squared;
+                const R caused = one.area * received / squared;
+                total_ += takes_each ? lumis::real::select(caused > 0.0f, R(1.0f), R(0.0f)) : caused;
                 up_to_[i] = total_;
             }
         }
@@ -118,8 +122,8 @@ class FewLights {
     };
 
     template <lumis::Real R>
-    [[nodiscard]] Seen<R> seen_from(const Receiver<R>& receiver) const {
-        return Seen<R>{*this, receiver};
+    [[nodiscard]] Seen<R> seen_from(const Receiver<R>& receiver, std::size_t count) const {
+        return Seen<R>{*this, receiver, count};
     }
 
   private:
@@ -157,11 +161,19 @@ class Lights {
         return std::get<G>(groups_);
     }
 
+    // What falls on the first surface is seen best; further on, one sample of a group is enough.
+    [[nodiscard]] static constexpr std::size_t samples_at(int bounce, const auto& group) {
+        return bounce == 1 ? std::remove_cvref_t<decltype(group)>::samples : 1;
+    }
+
     // The groups as seen from a point.
     template <lumis::Real R>
-    [[nodiscard]] auto seen_from(const Receiver<R>& receiver) const {
-        return std::apply([&](const auto&... group) { return std::tuple{group.template seen_from<R>(receiver)...}; },
-                          groups_);
+    [[nodiscard]] auto seen_from(const Receiver<R>& receiver, int bounce) const {
+        return std::apply(
+            [&](const auto&... group) {
+                return std::tuple{group.template seen_from<R>(receiver, samples_at(bounce, group))...};
+            },
+            groups_);
     }
 
     // visit(group, index of it as a constant).

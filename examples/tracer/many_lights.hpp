@@ -79,7 +79,7 @@ class ManyLights {
     };
 
     template <lumis::Real R>
-    [[nodiscard]] Seen<R> seen_from(const Receiver<R>& receiver) const {
+    [[nodiscard]] Seen<R> seen_from(const Receiver<R>& receiver, std::size_t /*count*/) const {
         return Seen<R>{*this, receiver};
     }
 

@@ -59,7 +59,7 @@ class PathTracer {
             alive = alive && on.reflects;
             if (!any(alive)) break;
             const Vertex vertex{hit, ray.direction, alive};
-            const auto lights = scene_.lights().template seen_from<R>(vertex.receiver());
+            const auto lights = scene_.lights().template seen_from<R>(vertex.receiver(), bounce);
 
             // A polished material asks no light. The one-sample model asks lights in half of all cases, else the BSDF.
             const Mask<R> is_found_by_both = !on.is_polished && Mask<R>(asks_lights(integrator_));
@@ -174,15 +174,10 @@ class PathTracer {
         [[nodiscard]] auto end() const { return all.begin() + static_cast<std::ptrdiff_t>(count); }
     };
 
-    // What falls on the first surface is seen best; further on, one sample of a group is enough.
-    [[nodiscard]] static constexpr std::size_t samples_of(const auto& group, int bounce) {
-        return bounce == 1 ? std::remove_cvref_t<decltype(group)>::samples : 1;
-    }
-
     // Uniforms are spent whether or not a lane asks: what one lane finds does not depend on the others.
     LUMIS_INLINE void draw_from(const auto& lights, int bounce, const Mask<R>& asks, Draws& draws) {
         scene_.lights().for_each([&](const auto& group, auto g) {
-            const std::size_t count = samples_of(group, bounce);
+            const std::size_t count = S::LightTable::samples_at(bounce, group);
             for (std::size_t i = 0; i < count; ++i) {
                 glm::vec<3, R> u = uniforms_.template next<3>();
                 if (!any(asks)) continue;
@@ -322,7 +317,7 @@ class PathTracer {
                 radiance = group.template radiance<R>(light);
                 light_pdf = std::get<g>(lights).pdf_from_hit(light, hit.distance, glm::dot(hit.normal, ray.direction));
             }
-            const auto count = static_cast<float>(samples_of(group, bounce));
+            const auto count = static_cast<float>(S::LightTable::samples_at(bounce, group));
             const R own = effective(drawn.pdf), other = effective(count * light_pdf);
             const R weight =
                 lumis::real::select(is_found_by_both, weight_of_bsdf_sample(integrator_, own, other), R(1.0f));

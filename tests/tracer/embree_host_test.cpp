@@ -70,7 +70,7 @@ class SteppedSky {
         [[nodiscard]] Met met(const glm::vec3& w) const { return {sky.radiance<float>(w), sky.map_.pdf(w)}; }
     };
     template <lumis::Real R>
-    [[nodiscard]] Seen seen_from(const tracer::Receiver<R>& /*receiver*/) const {
+    [[nodiscard]] Seen seen_from(const tracer::Receiver<R>& /*receiver*/, std::size_t /*count*/) const {
         return {*this};
     }
 
