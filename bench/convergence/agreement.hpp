@@ -1,7 +1,7 @@
 // Do two renderings of one image agree within their errors?
 #pragma once
 
-#include "image.hpp"
+#include "images/image.hpp"
 #include "study.hpp"
 
 namespace convergence {

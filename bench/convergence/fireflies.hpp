@@ -1,7 +1,7 @@
 // Fireflies: what the eye sees first of an estimator whose variance is in a few samples.
 #pragma once
 
-#include "image.hpp"
+#include "images/image.hpp"
 
 namespace convergence {
 

@@ -1,6 +1,6 @@
 #include "left_out.hpp"
 
-#include "packet.hpp"
+#include "paths/packet.hpp"
 #include "render_study.hpp"
 #include <lumis/statistics/error_metrics.hpp>
 

@@ -1,6 +1,6 @@
 #include "problem.hpp"
 
-#include "random_stream.hpp"
+#include "paths/random_stream.hpp"
 
 #include <sstream>
 

@@ -1,7 +1,7 @@
 // Reference images: computed once, kept in a folder, with their own error.
 #pragma once
 
-#include "image.hpp"
+#include "images/image.hpp"
 #include "renderer.hpp"
 #include "study.hpp"
 

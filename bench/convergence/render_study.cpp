@@ -2,9 +2,9 @@
 
 #include "error_image.hpp"
 #include "fireflies.hpp"
-#include "image.hpp"
+#include "images/image.hpp"
 #include "left_out.hpp"
-#include "packet.hpp"
+#include "paths/packet.hpp"
 #include "reference_image.hpp"
 #include "renderer.hpp"
 #include <lumis/statistics/error_metrics.hpp>

@@ -1,7 +1,7 @@
 #include "stiff_study.hpp"
 
 #include "near_mirror.hpp"
-#include "random_stream.hpp"
+#include "paths/random_stream.hpp"
 #include "thread_clock.hpp"
 #include <lumis/lumis.hpp>
 

@@ -1,9 +1,9 @@
 #include "with_everything.hpp"
 
 #include "left_out.hpp"
-#include "scene_cornell.hpp"
-#include "scene_sky.hpp"
-#include "scene_veach.hpp"
+#include "scenes/scene_cornell.hpp"
+#include "scenes/scene_sky.hpp"
+#include "scenes/scene_veach.hpp"
 
 namespace convergence {
 

@@ -2,8 +2,8 @@
 // turns out that the scene has no such thing. It is what a renderer that composes nothing carries along.
 #pragma once
 
-#include "environment.hpp"
-#include "many_lights.hpp"
+#include "lights/environment.hpp"
+#include "lights/many_lights.hpp"
 #include "scene_renderer.hpp"
 
 #include <concepts>

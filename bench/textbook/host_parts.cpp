@@ -4,7 +4,7 @@
 #include "textbook/host_parts.hpp"
 
 #include "adaptors.hpp"
-#include "image.hpp"
+#include "images/image.hpp"
 #include "render.hpp"
 
 #include <array>

@@ -1,6 +1,6 @@
 // Renders an OBJ file under a sky.
 #include "adaptors.hpp"
-#include "image.hpp"
+#include "images/image.hpp"
 #include "render.hpp"
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,6 @@
 #include "scene.hpp"
 
-#include "image.hpp"
+#include "images/image.hpp"
 
 #include <embree3/rtcore.h>
 #include <tiny_obj_loader.h>

@@ -1,7 +1,7 @@
 // The renderer's random numbers: Sobol points, whose digits are shifted by another amount in each pixel and dimension.
 #pragma once
 
-#include "random_stream.hpp"  // tracer::mixed
+#include "paths/random_stream.hpp"  // tracer::mixed
 
 #include <boost/random/sobol.hpp>
 

@@ -1,6 +1,6 @@
 #include "command_line.hpp"
 
-#include "image.hpp"
+#include "images/image.hpp"
 #include "renderer.hpp"
 #include <lumis/version.hpp>
 

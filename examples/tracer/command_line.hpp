@@ -1,7 +1,7 @@
 // What the command line asks for.
 #pragma once
 
-#include "checkpoint.hpp"
+#include "film/checkpoint.hpp"
 #include "progress.hpp"
 #include "render_options.hpp"
 

@@ -1,7 +1,7 @@
 // Renders one scene with one integrator. What can be known to be wrong is found before rendering. Exit codes: 0, 1 for files
 // and memory, 2 for a wrong command, 128 + the signal's number after an interruption.
 #include "command_line.hpp"
-#include "image.hpp"
+#include "images/image.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
 #include "renderer.hpp"

@@ -1,7 +1,7 @@
 // When a rendering ends, and a line that shows how far it is.
 #pragma once
 
-#include "film.hpp"
+#include "film/film.hpp"
 
 #include <algorithm>
 #include <chrono>

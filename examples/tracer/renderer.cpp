@@ -1,7 +1,7 @@
 #include "renderer.hpp"
 
-#include "scenes.hpp"
-#include "transport.hpp"
+#include "paths/transport.hpp"
+#include "scenes/scenes.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // What the command line, the report and the tests see of the tracer: scenes by name, rendered pass by pass.
 #pragma once
 
-#include "film.hpp"
+#include "film/film.hpp"
 #include "render_options.hpp"
 
 #include <cstdint>

@@ -1,14 +1,14 @@
 // A renderer for one type of scene: every loop below is compiled for just this scene.
 #pragma once
 
-#include "camera.hpp"
-#include "filter.hpp"
-#include "path.hpp"
+#include "paths/camera.hpp"
+#include "paths/filter.hpp"
+#include "paths/path.hpp"
+#include "paths/sampler.hpp"
+#include "paths/transport.hpp"
 #include "renderer.hpp"
-#include "sampler.hpp"
 #include "task_order.hpp"
 #include "thread_clock.hpp"
-#include "transport.hpp"
 #include "type_name.hpp"
 
 #include <oneapi/tbb/blocked_range.h>

@@ -1,6 +1,6 @@
 // The tracer's image reader: any bytes are an image or a FileError that says why not.
 #include "check.hpp"
-#include "image.hpp"
+#include "images/image.hpp"
 
 #include <cstdint>
 #include <string>

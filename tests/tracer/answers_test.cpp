@@ -1,11 +1,11 @@
 // Scenes with known answers: images differ from them by chance alone, of the size that the images report themselves.
 #include "catch.hpp"
 #include "renderer.hpp"
-#include "scene_box.hpp"
-#include "scene_cornell.hpp"
-#include "scene_furnace.hpp"
 #include "scene_renderer.hpp"
-#include "scene_slab.hpp"
+#include "scenes/scene_box.hpp"
+#include "scenes/scene_cornell.hpp"
+#include "scenes/scene_furnace.hpp"
+#include "scenes/scene_slab.hpp"
 #include <lumis/testing/result.hpp>
 
 #include <boost/math/distributions/normal.hpp>

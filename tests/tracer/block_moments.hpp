@@ -2,7 +2,7 @@
 #pragma once
 
 #include "catch.hpp"
-#include "image.hpp"
+#include "images/image.hpp"
 #include <lumis/statistics/running_moments.hpp>
 #include <lumis/testing/result.hpp>
 

@@ -1,5 +1,5 @@
 // A checkpoint gives back what was saved, or says why not: cut short anywhere, or with any bit flipped.
-#include "checkpoint.hpp"
+#include "film/checkpoint.hpp"
 
 #include "catch.hpp"
 #include "folder.hpp"

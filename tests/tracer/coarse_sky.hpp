@@ -2,7 +2,7 @@
 // times in a block, that their error is not normal.
 #pragma once
 
-#include "image.hpp"
+#include "images/image.hpp"
 
 inline tracer::Image coarse_sky() {
     constexpr int factor = 8;

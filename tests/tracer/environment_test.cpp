@@ -1,4 +1,4 @@
-#include "environment.hpp"
+#include "lights/environment.hpp"
 
 #include "catch.hpp"
 #include <lumis/lumis.hpp>

@@ -1,10 +1,10 @@
 // A film's estimate of its own error, against errors known by other means.
-#include "film.hpp"
+#include "film/film.hpp"
 
 #include "catch.hpp"
 #include "folder.hpp"
 #include "image_files.hpp"
-#include "random_stream.hpp"
+#include "paths/random_stream.hpp"
 #include <lumis/core/uniforms.hpp>
 #include <lumis/statistics/error_metrics.hpp>
 #include <lumis/statistics/running_moments.hpp>

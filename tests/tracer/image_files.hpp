@@ -1,7 +1,7 @@
 // What the tests of image files share: reading bytes, and the reason why they are refused.
 #pragma once
 
-#include "image.hpp"
+#include "images/image.hpp"
 
 #include <cmath>
 #include <limits>

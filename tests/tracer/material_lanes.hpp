@@ -4,7 +4,7 @@
 #include "assertions.hpp"
 #include "catch.hpp"
 #include "material_subjects.hpp"
-#include "packet.hpp"
+#include "paths/packet.hpp"
 
 #include <array>
 #include <bit>

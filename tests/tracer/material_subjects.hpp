@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dielectric_subjects.hpp"
-#include "materials.hpp"
+#include "materials/materials.hpp"
 #include "scattering_subjects.hpp"
 #include <lumis/testing/cells.hpp>
 #include <lumis/testing/charts.hpp>

@@ -3,7 +3,7 @@
 #include "catch.hpp"
 #include "material_lanes.hpp"
 #include "material_subjects.hpp"
-#include "packet.hpp"
+#include "paths/packet.hpp"
 #include "white_furnace.hpp"
 #include <lumis/testing/materials.hpp>
 #include <lumis/testing/unbiased.hpp>

@@ -1,9 +1,9 @@
 // Meshes from OBJ files, and why some are refused.
-#include "mesh.hpp"
+#include "geometry/mesh.hpp"
 
 #include "catch.hpp"
 #include "folder.hpp"
-#include "image.hpp"
+#include "images/image.hpp"
 
 #include <cmath>
 #include <fstream>

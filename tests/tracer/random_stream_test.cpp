@@ -1,5 +1,5 @@
 // Streams of random numbers are independent: between pixels, passes and seeds.
-#include "random_stream.hpp"
+#include "paths/random_stream.hpp"
 
 #include "catch.hpp"
 #include <lumis/core/uniforms.hpp>

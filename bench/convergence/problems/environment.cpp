@@ -1,5 +1,5 @@
 // The irradiance of a photographed sky, with its sun and without: texels, not interpolated, so that the answer is a sum.
-#include "environment.hpp"
+#include "lights/environment.hpp"
 
 #include "problem.hpp"
 #include <lumis/combine/in_frame.hpp>
