@@ -63,6 +63,7 @@ class SceneRenderer final : public Renderer {
                    row = static_cast<float>(index / static_cast<std::size_t>(width_));
         PathTracer<S, R> paths{scene_, integrator, options.bounces, uniforms};
         glm::dvec3 sum{0};
+        glm::vec3 albedo{0}, normal{0};
         typename PathTracer<S, R>::Rounds::Sums direct;  // by optimal weights
         const int width = static_cast<int>(lanes<R>);
         for (int sample = 0; sample < samples; sample += width) {
@@ -74,12 +75,15 @@ class SceneRenderer final : public Renderer {
             const Found<R> found = paths.along(view_.template ray<R>(x, y), asked, direct);
             for (std::size_t i = 0; i < lanes<R> && sample + static_cast<int>(i) < samples; ++i) {
                 sum += glm::dvec3{lane_of(found.radiance, i)};
-                pixel.albedo += lane_of(found.albedo, i);
-                pixel.normal += lane_of(found.normal, i);
+                albedo += lane_of(found.albedo, i);
+                normal += lane_of(found.normal, i);
             }
         }
         sum += static_cast<double>(samples) * glm::dvec3{direct.estimate()};
+        // Sums of the whole pass are added, so that a film of one pass that is merged gives the same bits.
         pixel.add_pass(sum, static_cast<std::uint32_t>(samples));
+        pixel.albedo += albedo;
+        pixel.normal += normal;
     }
 
     S scene_;
