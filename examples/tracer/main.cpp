@@ -1,9 +1,12 @@
 // Renders one scene with one integrator. What can be known to be wrong is found before rendering. Exit codes: 0, 1 for files
 // and memory, 2 for a wrong command, 128 + the signal's number after an interruption.
+// With MPI, the root does all of this, and the other ranks render passes for it.
 #include "command_line.hpp"
 #include "images/image.hpp"
 #include "interruption.hpp"
+#include "passes.hpp"
 #include "progress.hpp"
+#include "ranks.hpp"
 #include "renderer.hpp"
 
 #include <oneapi/tbb/global_control.h>
@@ -103,7 +106,7 @@ class Saving {
 };
 
 // Adds passes until a limit is reached or the user interrupts.
-void render(const Renderer& renderer, const Settings& settings, Checkpoint& rendering, Saving& saving) {
+void render(Passes& passes, const Settings& settings, Checkpoint& rendering, Saving& saving) {
     Film& film = rendering.film;
     const Limits& limits = settings.limits;
     if (film.samples() > limits.samples) {
@@ -115,14 +118,13 @@ void render(const Renderer& renderer, const Settings& settings, Checkpoint& rend
     double error = is_error_due(film.passes()) ? film.relative_error() : std::numeric_limits<double>::infinity();
     bool is_whole = true;
     while (Interruption::received() == 0) {
-        const int samples = std::min(limits.samples - film.samples(), rendering.pass_samples);
+        const int samples = passes.samples_of(film.passes());
         const bool is_late = film.samples() > samples_before && progress.seconds() >= limits.seconds;
         if (samples == 0 || error < limits.error || is_late) break;
         // A checkpoint holds whole passes, so that it can be continued to more samples than were asked for now.
         is_whole = samples == rendering.pass_samples;
         if (!is_whole) saving.save(rendering);
-        rendering.cpu_seconds +=
-            renderer.add_pass(film, settings.integrator, settings.options(), samples, settings.seed, film.passes());
+        rendering.cpu_seconds += passes.add_to(film);
         if (is_error_due(film.passes())) error = film.relative_error();
         if (is_whole) saving.save_if_due(rendering);
         progress.show(film.samples(), error, false);
@@ -152,12 +154,26 @@ void write(const Settings& settings, const Film& film, std::string wrong) {
     if (!wrong.empty()) throw FileError(wrong);
 }
 
-int run(const Settings& settings) {
-    const oneapi::tbb::global_control threads{oneapi::tbb::global_control::max_allowed_parallelism,
-                                              static_cast<std::size_t>(settings.threads)};
-    const SceneEntry& scene = *find_scene(settings.scene);
-    const int width = settings.width > 0 ? settings.width : scene.width;
-    const int height = settings.height > 0 ? settings.height : scene.height;
+// What every rank has: its threads, and the scene at the size of the image.
+struct Work {
+    oneapi::tbb::global_control threads;
+    const SceneEntry& scene;
+    int width, height;
+
+    explicit Work(const Settings& settings)
+        : threads{oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(settings.threads)},
+          scene{*find_scene(settings.scene)},
+          width{settings.width > 0 ? settings.width : scene.width},
+          height{settings.height > 0 ? settings.height : scene.height} {}
+
+    [[nodiscard]] std::unique_ptr<Renderer> make_renderer(const Settings& settings) const {
+        return scene.make({width, height, settings.environment, settings.mesh});
+    }
+};
+
+int run(const Ranks& ranks, const Settings& settings) {
+    const Work work{settings};
+    const int width = work.width, height = work.height;
     for (const std::string& output : settings.outputs) require_writable(output);
     if (!settings.error_output.empty()) require_writable(settings.error_output);
     require_memory(width, height);
@@ -165,9 +181,10 @@ int run(const Settings& settings) {
     try {
         Saving saving{settings};
         Checkpoint rendering = saving.begin(settings, width, height);
-        const auto renderer = scene.make({width, height, settings.environment, settings.mesh});
+        const auto renderer = work.make_renderer(settings);
         Interruption::watch();
-        render(*renderer, settings, rendering, saving);
+        Passes passes{ranks, *renderer, settings, rendering};
+        render(passes, settings, rendering, saving);
         any = rendering.film.samples() > 0;
         if (any) write(settings, rendering.film, saving.failure());
     } catch (const std::bad_alloc&) {
@@ -179,20 +196,43 @@ int run(const Settings& settings) {
     return 128 + Interruption::received();
 }
 
-}  // namespace
+// At every rank but the root: renders what the root asks for. The command line is read after the root has found it right.
+void serve(const Ranks& ranks, int argc, char** argv) {
+    Interruption::watch();  // the root decides what it means
+    Task task = ranks.receive_task();
+    if (task.samples == 0) return;
+    const Settings settings = std::get<Settings>(parse_command_line(argc, argv));
+    const Work work{settings};
+    const auto renderer = work.make_renderer(settings);
+    for (; task.samples > 0; task = ranks.receive_task()) {
+        Film film{work.width, work.height};
+        const double cpu_seconds =
+            renderer->add_pass(film, settings.integrator, settings.options(), task.samples, settings.seed, task.pass);
+        ranks.send_pass(film, cpu_seconds);
+    }
+}
 
-int main(int argc, char** argv) {
+int lead(const Ranks& ranks, int argc, char** argv) {
     const auto parsed = parse_command_line(argc, argv);
     if (const int* code = std::get_if<int>(&parsed)) return *code;
     const Settings& settings = std::get<Settings>(parsed);
-    if (settings.list_only) {
-        list();
-        return 0;
-    }
+    if (!settings.list_only) return run(ranks, settings);
+    list();
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const Ranks ranks{argc, argv};
     try {
-        return run(settings);
+        if (ranks.rank() == 0) return lead(ranks, argc, argv);
+        serve(ranks, argc, argv);
+        return 0;
     } catch (const std::exception& error) {
-        std::cerr << "tracer: " << error.what() << '\n';
-        return 1;
+        const std::string at = ranks.rank() == 0 ? "" : "rank " + std::to_string(ranks.rank()) + ": ";
+        std::cerr << "tracer: " + at + error.what() + '\n';
     }
+    if (ranks.rank() != 0) ranks.abort(1);  // the root waits for its pass
+    return 1;
 }

@@ -1,0 +1,48 @@
+// The processes that render one image together: MPI starts them, on one machine or many, and carries what they tell each other.
+// A program that is built without MPI has one rank.
+#pragma once
+
+#include "film.hpp"
+
+#include <cstdint>
+
+namespace tracer {
+
+// A pass that the root asks another rank to render; without samples, the rank's work is done.
+struct Task {
+    std::uint64_t pass;
+    std::int32_t samples;  // of each pixel
+};
+
+// One object, which outlives all else that a rank does. Rank 0 is the root; the others hear from it alone.
+class Ranks {
+  public:
+    // Takes the arguments meant for MPI away.
+    Ranks(int& argc, char**& argv);
+    // At the root, tells all others that their work is done.
+    ~Ranks();
+    Ranks(const Ranks&) = delete;
+    Ranks& operator=(const Ranks&) = delete;
+
+    [[nodiscard]] int rank() const { return rank_; }
+    [[nodiscard]] int count() const { return count_; }
+
+    // At the root. A rank takes its next task after it has sent the pass of the last one.
+    void send_task(int rank, const Task& task) const;
+    // Whether the pass of a rank's task has been rendered, so that receive_pass need not wait.
+    [[nodiscard]] bool has_pass(int rank) const;
+    // Fills a film of the same size with that pass; returns the CPU seconds spent on it.
+    double receive_pass(int rank, Film& film) const;
+
+    // At the others.
+    [[nodiscard]] Task receive_task() const;
+    void send_pass(const Film& film, double cpu_seconds) const;
+
+    // Ends the processes of all ranks at once.
+    [[noreturn]] void abort(int exit_code) const;
+
+  private:
+    int rank_ = 0, count_ = 1;
+};
+
+}  // namespace tracer
