@@ -7,12 +7,13 @@ namespace tracer {
 
 class Interruption {
   public:
-    // From now on SIGINT (Ctrl-C) and SIGTERM are remembered, once.
+    // From now on SIGINT (Ctrl-C), SIGTERM and SIGUSR1 are remembered, once. A cluster's scheduler sends the last before time is
+    // up; mpirun passes it on, whereas after Ctrl-C it leaves its processes one second.
     static void watch() {
         struct sigaction action {};
         action.sa_handler = [](int signal) { received_ = signal; };
         action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-        for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+        for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
     }
 
     // The signal, or 0.

@@ -7,7 +7,7 @@ set(ENV{OMPI_ALLOW_RUN_AS_ROOT} 1)
 set(ENV{OMPI_ALLOW_RUN_AS_ROOT_CONFIRM} 1)
 
 function(expect ranks code pattern)
-    execute_process(COMMAND ${MPIEXEC} ${MPIEXEC_COUNT} ${ranks} ${before} ${PROGRAM} --threads 1 ${ARGN}
+    execute_process(COMMAND ${around} ${MPIEXEC} ${MPIEXEC_COUNT} ${ranks} ${before} ${PROGRAM} --threads 1 ${ARGN}
         WORKING_DIRECTORY ${FOLDER} TIMEOUT 100 RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE err)
     if(NOT status EQUAL code OR NOT "${out}${err}" MATCHES "${pattern}")
         message(FATAL_ERROR "${ranks} ranks of tracer ${ARGN}: exit code ${status}, expected ${code} and '${pattern}', got:\n${out}${err}")
@@ -45,6 +45,15 @@ endforeach()
 
 # The time of a run is the root's.
 expect(2 0 "samples a pixel, [0-9.]+ of 0\\.2 s" ${all} --seconds 0.2)
+
+# A signal that mpirun passes on ends the rendering after its pass, at all ranks; what there is is written.
+find_program(TIMEOUT timeout)
+if(TIMEOUT)
+    set(around ${TIMEOUT} --foreground --preserve-status --signal=USR1 5)
+    expect(2 138 "wrote interrupted\\.exr.*tracer: interrupted|tracer: interrupted.*wrote interrupted\\.exr"
+        ${all} --spp 16000000 --output interrupted.exr)
+    set(around)
+endif()
 
 # A rank that dies takes the others along, and the last checkpoint is whole: any number of ranks continues it. Its killer waits for
 # a checkpoint, and a second more for passes enough that a run of their number has passes of the same size.
