@@ -1,0 +1,22 @@
+// Ranks of MPI render passes into films of their own, and the root merges them: the image must not tell.
+#include "catch.hpp"
+#include "renderer.hpp"
+
+#include <cstring>
+
+TEST_CASE("a pass that is merged adds the very bits of a pass added in place") {
+    using namespace tracer;
+    constexpr int size = 16, samples = 24;
+    for (const SceneEntry& scene : scenes()) {
+        const auto renderer = scene.make({size, size, {}});
+        Film in_place{size, size}, merged{size, size};
+        for (std::uint64_t pass = 0; pass < 4; ++pass) {
+            Film alone{size, size};
+            for (Film* film : {&in_place, &alone}) renderer->add_pass(*film, "power", {}, samples, 3, pass);
+            merged.merge(alone);
+        }
+        CAPTURE(scene.name);
+        const std::size_t bytes = in_place.pixels.size() * sizeof(Pixel);  // which has no gaps
+        CHECK(std::memcmp(in_place.pixels.data(), merged.pixels.data(), bytes) == 0);
+    }
+}
