@@ -48,10 +48,11 @@ double available_memory() {
 }
 
 // The system grants more memory than there is, and ends a program that uses it without a word.
-void require_memory(int width, int height) {
-    constexpr double bytes_of_file = 4 * 13;  // three channels, and those of the layers
-    constexpr double bytes_of_pixel = sizeof(Pixel) + sizeof(glm::vec3) + 2 * bytes_of_file;  // the file in two copies
-    const double needed = bytes_of_pixel * width * height, available = available_memory();
+void require_memory(int width, int height, std::size_t films) {
+    constexpr std::size_t bytes_of_file = 4 * 13;  // three channels, and those of the layers
+    const std::size_t bytes_of_pixel =
+        films * sizeof(Pixel) + sizeof(glm::vec3) + 2 * bytes_of_file;  // the file in two copies
+    const double needed = static_cast<double>(bytes_of_pixel) * width * height, available = available_memory();
     if (needed <= available) return;
     std::ostringstream message;
     message << std::fixed << std::setprecision(1) << "an image of " << width << " x " << height << " needs "
@@ -176,7 +177,7 @@ int run(const Ranks& ranks, const Settings& settings) {
     const int width = work.width, height = work.height;
     for (const std::string& output : settings.outputs) require_writable(output);
     if (!settings.error_output.empty()) require_writable(settings.error_output);
-    require_memory(width, height);
+    require_memory(width, height, ranks.count() > 1 ? 2 : 1);  // one more for the passes of other ranks
     bool any = false;
     try {
         Saving saving{settings};
