@@ -17,6 +17,7 @@ struct Settings {
     int threads = 1;
     std::string environment;
     std::vector<std::string> problems;  // none: all
+    bool all_scenes = false;            // not only those that the demo has time for
     bool page = true;
 
     // What asks for the same measurement, but for the place of its results.
