@@ -83,8 +83,7 @@ class Mitsuba:
         self.exact = self.timed
         if scene == "sky" and variant.startswith("llvm"):
             self.exact = mitsuba.load_dict(as_the_tracer_has_it(description), parallel=False)
-        for loaded in dict.fromkeys((self.timed, self.exact)):
-            self.call(loaded, 4, 0)  # compiles
+        self.compiled = set() if variant.startswith("llvm") else None  # for these numbers of samples
 
     def possible(self, samples):
         """The number of samples nearest to this one that the sampler can have."""
@@ -102,6 +101,9 @@ class Mitsuba:
         mitsuba.set_variant(self.variant)
         calls = max(1, samples // LARGEST_CALL)
         each, image, seconds = samples // calls, 0, 0
+        if self.compiled is not None and each not in self.compiled:
+            self.compiled.add(each)
+            self.call(self.timed, each, 0)  # samplers that stratify are compiled for their number of samples
         for call in range(calls):
             part, cost = self.call(self.timed, each, seed * 1000 + call)
             if self.exact is not self.timed:
