@@ -32,23 +32,28 @@ class Environment {
         : width_{map.width},
           height_{map.height},
           texels_{padded(map)},
-          strategy_{map.width, map.height, luminances(map), {lumis::Interpolation::Bilinear}} {}
+          alone_{map.width, map.height, luminances(map), {lumis::Interpolation::Bilinear, false}},
+          beside_bsdf_{map.width, map.height, luminances(map), {lumis::Interpolation::Bilinear, true}} {}
 
-    [[nodiscard]] const Strategy& strategy() const { return strategy_; }
+    // Draws all of the sky, or, beside samples of a BSDF, what is brighter than its mean.
+    [[nodiscard]] const Strategy& strategy(bool has_bsdf_samples) const {
+        return has_bsdf_samples ? beside_bsdf_ : alone_;
+    }
 
     template <lumis::Real R>
     [[nodiscard]] Vector<R> radiance(const Vector<R>& w) const {
         return radiance_at<R>(lumis::latlong_from_direction(w));
     }
 
-    // The same light wherever it is seen from.
+    // The same wherever it is seen from.
     template <lumis::Real R>
     class Seen {
       public:
-        explicit Seen(const Environment& environment) : environment_{environment} {}
+        Seen(const Environment& environment, bool has_bsdf_samples)
+            : environment_{environment}, strategy_{environment.strategy(has_bsdf_samples)} {}
 
         [[nodiscard]] LightDraw<R> sample(const glm::vec<3, R>& u) const {
-            const auto drawn = environment_.strategy_.sample_uv(glm::vec<2, R>{u.x, u.y});
+            const auto drawn = strategy_.sample_uv(glm::vec<2, R>{u.x, u.y});
             return {drawn.value, drawn.pdf, drawn.distance, environment_.radiance_at<R>(drawn.uv)};
         }
 
@@ -59,16 +64,17 @@ class Environment {
         };
         [[nodiscard]] Met met(const Vector<R>& w) const {
             const auto uv = lumis::latlong_from_direction(w);
-            return {environment_.radiance_at<R>(uv), environment_.strategy_.pdf_at(uv)};
+            return {environment_.radiance_at<R>(uv), strategy_.pdf_at(uv)};
         }
 
       private:
         const Environment& environment_;
+        const Strategy& strategy_;
     };
 
     template <lumis::Real R>
-    [[nodiscard]] Seen<R> seen_from(const Receiver<R>& /*receiver*/, std::size_t /*count*/) const {
-        return Seen<R>{*this};
+    [[nodiscard]] Seen<R> seen_from(const Receiver<R>& receiver, std::size_t /*count*/) const {
+        return Seen<R>{*this, receiver.has_bsdf_samples};
     }
 
   private:
@@ -113,7 +119,7 @@ class Environment {
 
     int width_, height_;
     std::vector<glm::vec4> texels_;  // four numbers each, to be loaded at once
-    Strategy strategy_;
+    Strategy alone_, beside_bsdf_;
 };
 
 }  // namespace tracer

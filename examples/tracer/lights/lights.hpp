@@ -25,6 +25,7 @@ namespace tracer {
 template <lumis::Real R>
 struct Receiver {
     Vector<R> position, normal;
+    bool has_bsdf_samples;  // which find what samples of light leave out
 };
 
 // A ball that holds a shape, and the shape's largest cross-section.

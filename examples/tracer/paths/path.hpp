@@ -59,7 +59,8 @@ class PathTracer {
             alive = alive && on.reflects;
             if (!any(alive)) break;
             const Vertex vertex{hit, ray.direction, alive};
-            const auto lights = scene_.lights().template seen_from<R>(vertex.receiver(), bounce);
+            const auto lights =
+                scene_.lights().template seen_from<R>(vertex.receiver(integrator_ != Integrator::Light), bounce);
 
             // A polished material asks no light. The one-sample model asks lights in half of all cases, else the BSDF.
             const Mask<R> is_found_by_both = !on.is_polished && Mask<R>(asks_lights(integrator_));
@@ -146,8 +147,8 @@ class PathTracer {
                 return lumis::Frame<R>{towards_viewer()};
             }
         }
-        [[nodiscard]] LUMIS_INLINE Receiver<R> receiver() const {
-            return {position, S::MaterialTable::transmit ? Vector<R>{R(0.0f)} : towards_viewer()};
+        [[nodiscard]] LUMIS_INLINE Receiver<R> receiver(bool has_bsdf_samples) const {
+            return {position, S::MaterialTable::transmit ? Vector<R>{R(0.0f)} : towards_viewer(), has_bsdf_samples};
         }
 
       private:
