@@ -2,7 +2,7 @@
 // A program that is built without MPI has one rank.
 #pragma once
 
-#include "film.hpp"
+#include "film/film.hpp"
 
 #include <cstdint>
 
