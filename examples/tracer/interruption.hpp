@@ -7,7 +7,7 @@ namespace tracer {
 
 class Interruption {
   public:
-    // From now on SIGINT (Ctrl-C), SIGTERM and SIGUSR1 are remembered, once. A cluster's scheduler sends the last before time is
+    // Remembers SIGINT (Ctrl-C), SIGTERM and SIGUSR1 from now on, once. A cluster's scheduler sends the last before time is
     // up; mpirun passes it on, whereas after Ctrl-C it leaves its processes one second.
     static void watch() {
         struct sigaction action {};

@@ -197,7 +197,7 @@ int run(const Ranks& ranks, const Settings& settings) {
     return 128 + Interruption::received();
 }
 
-// At every rank but the root: renders what the root asks for. The command line is read after the root has found it right.
+// Renders what the root asks for, at every other rank. The command line is read after the root has found it right.
 void serve(const Ranks& ranks, int argc, char** argv) {
     Interruption::watch();  // the root decides what it means
     Task task = ranks.receive_task();

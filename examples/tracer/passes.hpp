@@ -14,8 +14,8 @@
 
 namespace tracer {
 
-// At the root. Pass p is rendered by rank p % count. Every rank but the root has one pass ahead of it at any time: it renders
-// while the root merges, looks at the error and saves.
+// The root's view of all passes. Pass p is rendered by rank p % count. Every rank but the root has one pass ahead of it at any
+// time: it renders while the root merges, looks at the error and saves.
 class Passes {
   public:
     // Begins after the passes that the rendering has.

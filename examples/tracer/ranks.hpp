@@ -19,7 +19,7 @@ class Ranks {
   public:
     // Takes the arguments meant for MPI away.
     Ranks(int& argc, char**& argv);
-    // At the root, tells all others that their work is done.
+    // Tells all other ranks that their work is done, if this is the root.
     ~Ranks();
     Ranks(const Ranks&) = delete;
     Ranks& operator=(const Ranks&) = delete;
@@ -27,14 +27,14 @@ class Ranks {
     [[nodiscard]] int rank() const { return rank_; }
     [[nodiscard]] int count() const { return count_; }
 
-    // At the root. A rank takes its next task after it has sent the pass of the last one.
+    // Called at the root. A rank takes its next task after it has sent the pass of the last one.
     void send_task(int rank, const Task& task) const;
     // Whether the pass of a rank's task has been rendered, so that receive_pass need not wait.
     [[nodiscard]] bool has_pass(int rank) const;
     // Fills a film of the same size with that pass; returns the CPU seconds spent on it.
     double receive_pass(int rank, Film& film) const;
 
-    // At the others.
+    // Called at the others.
     [[nodiscard]] Task receive_task() const;
     void send_pass(const Film& film, double cpu_seconds) const;
 

@@ -48,7 +48,7 @@ struct SceneEntry {
 // In pixels, of all the scenes' own widths.
 [[nodiscard]] int widest_scene();
 
-// In the order in which they are best told.
+// All integrators, in the order in which they are best told.
 [[nodiscard]] std::span<const std::string_view> integrator_names();
 
 }  // namespace tracer

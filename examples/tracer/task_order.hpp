@@ -1,4 +1,4 @@
-// In what order TBB runs tasks, told to the thread sanitizer, which does not see into a libtbb that is built without it: a
+// The order in which TBB runs tasks, told to the thread sanitizer, which does not see into a libtbb that is built without it: a
 // task begins after the call that makes it, and ends before that call returns. Tasks of one call are in no order. Without
 // the sanitizer all this is nothing.
 #pragma once

@@ -110,7 +110,7 @@ struct Scene {
     return lumis::SelectedLight{lumis::LightSet{light, table}};
 }
 
-// By what each gives without shadows: as a host that looks at all lights at each point would.
+// Probabilities are what each light gives without shadows, as for a host that looks at all lights at each point.
 [[nodiscard]] lumis::DiscreteTable<double> exact_table(const Scene& scene) {
     std::vector<double> given;
     for (std::size_t i = 0; i < scene.balls.size(); ++i) {

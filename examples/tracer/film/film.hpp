@@ -51,7 +51,7 @@ struct Film {
     [[nodiscard]] int samples() const { return static_cast<int>(pixels.front().samples); }
     [[nodiscard]] std::uint32_t passes() const { return pixels.front().passes; }
 
-    // As if the passes of `other`, a film of the same size, had been added here.
+    // Adds the passes of `other`, a film of the same size, to the bit as if they had been added here.
     void merge(const Film& other);
 
     [[nodiscard]] Image image() const;

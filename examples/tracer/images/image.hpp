@@ -45,7 +45,7 @@ inline constexpr std::uint64_t max_pixels = std::uint64_t{1} << 27;
 [[nodiscard]] Image read_image(std::span<const std::byte> bytes, const std::string& name,
                                std::uint64_t limit = max_pixels);
 
-// By the ending, in small or capital letters: .exr keeps the linear values and the layers, .png shows the picture in sRGB.
+// The ending, in small or capital letters, decides: .exr keeps the linear values and the layers, .png shows the picture in sRGB.
 [[nodiscard]] bool is_writable_format(const std::string& path);
 void write_image(const std::string& path, const Image& image, std::span<const Layer> layers = {});
 

@@ -91,7 +91,7 @@ class Environment {
 
     [[nodiscard]] LUMIS_INLINE std::array<float, 4> interpolated(float x, float y) const {
         using Four = lumis::Lanes<float, 4>;
-        // Of positive numbers: half a texel further left and up, and a texel back.
+        // Numbers are positive, so that cutting off digits rounds down.
         const int right = static_cast<int>(x + 0.5f), lower = static_cast<int>(y + 0.5f);
         const float to_right = x + 0.5f - static_cast<float>(right), to_lower = y + 0.5f - static_cast<float>(lower);
         const int left = right > 0 ? right - 1 : width_ - 1, upper = std::max(lower - 1, 0);

@@ -66,7 +66,7 @@ class FewLights {
         return emitters_.template radiance<R>(light);
     }
 
-    // With as many samples as lights each is taken once; with fewer they go to those that can cause the most.
+    // Each light is taken once if there are as many samples as lights; fewer samples go to those that can cause the most.
     template <lumis::Real R>
     class Seen {
       public:

@@ -20,7 +20,7 @@ struct Conductor {
     }
 };
 
-// At red, green and blue light.
+// Indices of silver at red, green and blue light.
 inline constexpr Conductor<float> silver{{0.1553f, 0.1167f, 0.1383f}, {4.8283f, 3.1222f, 2.1470f}};
 
 // The same reflectance at all angles.

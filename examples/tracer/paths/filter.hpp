@@ -7,7 +7,8 @@
 
 namespace tracer {
 
-// From the pixel's centre, in pixels along one axis, for u in [0, 1): a box is one wide, a tent (linear interpolation) two.
+// The offset from the pixel's centre, in pixels along one axis, for u in [0, 1). A box is one wide, a tent (linear
+// interpolation) two.
 template <lumis::Real R>
 [[nodiscard]] LUMIS_INLINE inline R filter_offset(Filter filter, const R& u) {
     if (filter == Filter::Box) return u - 0.5f;

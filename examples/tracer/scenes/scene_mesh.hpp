@@ -68,7 +68,7 @@ class MeshScene : public SceneParts<Materials<Diffuse<float>, Coated<float>>,
         return read_image(file.empty() ? LUMIS_EXAMPLES_DATA "/venice_sunset_1k.hdr" : file);
     }
 
-    // From the front, a little to the right and above, so far away that all of it is seen. y points up.
+    // Looks from the front, a little from the right and above, from so far away that all of it is seen. y points up.
     [[nodiscard]] static Camera camera_of(const Mesh& mesh) {
         glm::vec3 lower = mesh.triangles.front().a, upper = lower;
         for (const auto& [a, b, c] : mesh.triangles) {

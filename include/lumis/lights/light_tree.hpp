@@ -96,7 +96,7 @@ class LightTreeFrom {
                            const detail::LitPoint<T>& at) noexcept
         : nodes_{nodes.data()}, paths_{paths.data()}, size_{size}, has_lights_{has_lights}, at_{at} {}
 
-    // From the root to the light at the end of the way that choose(ends) says.
+    // Goes from the root to the light at the end of the way that choose(ends) says.
     [[nodiscard]] LUMIS_HD Sample<Point, T> descend(auto choose) const noexcept {
         std::uint64_t counts = all_counts;
         std::uint32_t index = 0;
@@ -129,7 +129,7 @@ class LightTreeFromLanes {
     using Indices = std::array<std::size_t, R::size>;
     static constexpr int dimensions = 1;
 
-    // With a probability of 0 nothing was drawn in that lane.
+    // Nothing was drawn in a lane whose probability is 0.
     [[nodiscard]] LUMIS_HD Sample<Indices, R> sample(const glm::vec<1, R>& u) const noexcept {
         Sample<Indices, R> result;
         for (std::size_t i = 0; i < R::size; ++i) {
@@ -146,7 +146,7 @@ class LightTreeFromLanes {
 
     [[nodiscard]] LUMIS_HD std::size_t size() const noexcept { return lanes_[0].size(); }
 
-    // As seen from the point of lane i: a table for LightSet.
+    // The tree as seen from the point of lane i: a table for LightSet.
     [[nodiscard]] LUMIS_HD const LightTreeFrom<Scalar>& operator[](std::size_t i) const noexcept { return lanes_[i]; }
 
   private:

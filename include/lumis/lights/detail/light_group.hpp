@@ -56,7 +56,7 @@ struct LightGroup {
             ++lights;
         }
     }
-    // In units of the squared extent of what is divided.
+    // The cost in units of the squared extent of what is divided.
     [[nodiscard]] double cost(double inverse_extent) const noexcept {
         const glm::vec<3, double> half = glm::vec<3, double>(place.half()) * inverse_extent, spread(axes.half());
         return intensity * glm::dot(half, half) * (1 + glm::dot(spread, spread));
