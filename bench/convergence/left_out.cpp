@@ -114,7 +114,7 @@ std::optional<LeftOut> left_out(const std::string& scene, const tracer::Renderer
         result.everything.instructions_per_sample = instructions_per_sample(scene, "everything");
         result.instructions_by = "callgrind, one thread";
     } else {
-        result.instructions_by = "missing: needs valgrind and its headers";
+        result.instructions_by = "missing: valgrind is not installed, or does not know instructions of this processor";
     }
     return result;
 }

@@ -124,7 +124,7 @@ int main(int argc, char** argv) {
     app.add_option("--problem", settings.problems, "Only these, see --list")->check(CLI::IsMember(all_problems()));
     app.add_flag("--list", list_only, "Show the problems");
     app.add_flag("--all", thorough,
-                 "Take half an hour for more scenes, seeds, time and pixels, unless these are given");
+                 "Take a quarter of an hour for more scenes, seeds, time and pixels, unless these are given");
     const auto* seeds_option = app.add_option("--seeds", seeds, "Independent runs of each estimator")
                                    ->check(CLI::Range(2, 1000))
                                    ->capture_default_str();
@@ -152,7 +152,7 @@ int main(int argc, char** argv) {
     settings.all_scenes = thorough;
     if (thorough) {
         if (seeds_option->count() == 0) seeds = 16;
-        if (seconds_option->count() == 0) settings.seconds = 2;
+        if (seconds_option->count() == 0) settings.seconds = 1;
         if (width_option->count() == 0) settings.width = 384;
         if (reference_option->count() == 0) settings.reference_samples = 1024;
     }

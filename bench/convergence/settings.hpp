@@ -24,7 +24,7 @@ struct Settings {
     [[nodiscard]] std::string arguments() const;
 
     // An integral is one number where an image is thousands: it is run for less, in more estimators.
-    [[nodiscard]] double seconds_of_integrals() const { return seconds / 400; }
+    [[nodiscard]] double seconds_of_integrals() const { return seconds / 200; }
 };
 
 }  // namespace convergence
