@@ -104,8 +104,8 @@ class LightTreeBuilder {
         const double reach = 2 * std::sin(cone.angle / 2);
         Box<T> axes;
         for (int k = 0; k < 3; ++k) {
-            axes.lower[k] = static_cast<T>(std::max(axis[k] - reach, -1.0));
-            axes.upper[k] = static_cast<T>(std::min(axis[k] + reach, 1.0));
+            axes.lower[k] = static_cast<T>((std::max)(axis[k] - reach, -1.0));
+            axes.upper[k] = static_cast<T>((std::min)(axis[k] + reach, 1.0));
         }
         return {{light.lower, light.upper}, axes, light.intensity / largest_, static_cast<std::uint32_t>(i)};
     }
@@ -140,7 +140,7 @@ class LightTreeBuilder {
 
     // Makes the node of a range of lights, and those below.
     Cluster build(const Range& range, unsigned level, LightPath path) {
-        built_.levels = std::max(built_.levels, level + 1);
+        built_.levels = (std::max)(built_.levels, level + 1);
         const std::size_t id = built_.nodes.size();
         built_.nodes.emplace_back();
         // Halves where others might leave too many lights for the levels that remain.
@@ -236,7 +236,7 @@ class LightTreeBuilder {
     // that none becomes too thin.
     [[nodiscard]] Division best_division(const Range& range, const Box<T>& centers, const glm::vec<3, T>& extent,
                                          int longest, const Box<T>& place) const {
-        const std::size_t bins = std::min(most_bins, range.size());
+        const std::size_t bins = (std::min)(most_bins, range.size());
         const double largest = longest_component(place.half());
         const double inverse_extent = largest > 0 ? 1 / largest : 0.0;
         Division best;

@@ -27,7 +27,7 @@ struct NormalCone {
 template <std::floating_point T>
 [[nodiscard]] NormalCone normal_cone(const LightBounds<T>& light) {
     const Direction<double> axis(light.axis);
-    const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
+    const double largest = (std::max)({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
     if (!(largest > 0)) return {};
     const Direction<double> scaled = axis / largest;
     return {scaled / real::length(scaled), std::acos(std::clamp(static_cast<double>(light.cos_cone), -1.0, 1.0)),
