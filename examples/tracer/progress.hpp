@@ -4,6 +4,7 @@
 #include "film/film.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -20,12 +21,11 @@ struct Limits {
     double error = 0;                                          // the film's relative error falls below it
 };
 
-// Samples of a pixel in each pass but the last, which may have fewer: packets fill up multiples of 16. Points of a low-discrepancy
-// sequence make the more of a pass the longer it is, but four passes are better to tell the error, and Ctrl-C waits for the
-// end of one.
+// Samples of a pixel in each pass but the last, which may have fewer: powers of two, which points of a low-discrepancy sequence
+// make the most of, and at least a packet. The error needs two passes, and Ctrl-C waits for the end of one.
 [[nodiscard]] inline int samples_of_pass(const Limits& limits) {
-    if (limits.samples == max_samples) return 16;
-    return std::clamp((limits.samples - 1) / 3 / 16 * 16, 16, 64);
+    if (limits.samples == max_samples) return 32;
+    return static_cast<int>(std::bit_floor(static_cast<unsigned>(std::clamp(limits.samples / 2, 16, 64))));
 }
 
 // What a run has reached, which began with some samples of an earlier one.

@@ -40,15 +40,14 @@ TEST_CASE("time is told in units of its size") {
     CHECK(duration(360000) == "100 h 0 min");
 }
 
-TEST_CASE("passes are whole packets, and four at least where there are samples enough") {
+TEST_CASE("passes are powers of two, whole packets, and two at least where there are samples enough") {
     for (int samples = 1; samples < 500; ++samples) {
         const int pass = samples_of_pass({.samples = samples});
-        CHECK(pass % 16 == 0);
-        CHECK(pass >= 16);
-        CHECK(pass <= 64);
-        if (samples > 48) CHECK((samples + pass - 1) / pass >= 4);
+        CHECK((pass == 16 || pass == 32 || pass == 64));
+        if (samples >= 32) CHECK(2 * pass <= samples);
+        if (pass < 64) CHECK(samples < 4 * pass);
     }
-    CHECK(samples_of_pass({.samples = 64}) == 16);
+    CHECK(samples_of_pass({}) == 32);
 }
 
 TEST_CASE("an error is looked at before a 32nd more samples are added than it needs") {
