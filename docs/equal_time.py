@@ -25,9 +25,9 @@ PILOT = 16  # samples a pixel of the short run
 
 def render(tracer, integrator, samples, output):
     """CPU seconds that the tracer says it took."""
-    printed = subprocess.run(
-        [tracer, "--scene", "veach", "--integrator", integrator, "--bounces", "1", "--sampler", "random",
-         "--spp", str(samples), "--width", str(WIDTH), "--height", str(HEIGHT), "--output", str(output)], check=True, capture_output=True, text=True).stdout
+    command = [tracer, "--scene", "veach", "--integrator", integrator, "--bounces", "1", "--sampler", "random",
+               "--spp", str(samples), "--width", str(WIDTH), "--height", str(HEIGHT), "--output", str(output)]
+    printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     return float(re.search(r"([\d.]+) s of CPU", printed)[1])
 
 
