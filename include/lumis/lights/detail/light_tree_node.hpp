@@ -152,11 +152,13 @@ template <std::floating_point T>
         sum[i] = total += sum[i];
     }
     if (!(total > 0)) return ends;
-    // A share of exactly 1 from the last child on that has a weight, to which all of the counts then go.
-    const auto spare = static_cast<double>(static_cast<std::int64_t>(counts - lights));
+    // All of the counts from the last child on that has a weight: a quotient may be beside 1 (-freciprocal-math).
+    const std::uint64_t spare = counts - lights;
+    const auto spare_counts = static_cast<double>(static_cast<std::int64_t>(spare));
     for (std::size_t i = 0; i < light_tree_width; ++i) {
         const double share = static_cast<double>(real::divide(sum[i], total));
-        ends[i] += static_cast<std::uint64_t>(static_cast<std::int64_t>(share * spare));
+        const auto dealt = static_cast<std::uint64_t>(static_cast<std::int64_t>(share * spare_counts));
+        ends[i] += sum[i] < total && dealt < spare ? dealt : spare;
     }
     return ends;
 }
