@@ -32,7 +32,7 @@ std::string check_seconds(const std::string& text) {
     return seconds > 0 && std::isfinite(seconds) ? std::string{} : text + " is no positive number";
 }
 
-// Without this, -1 would count as 2^64 - 1.
+// Numbers below 0 are refused here: -1 would count as 2^64 - 1.
 std::string check_seed(const std::string& text) {
     return text.starts_with('-') ? text + " is negative" : std::string{};
 }

@@ -1,6 +1,6 @@
 // Renders one scene with one integrator. What can be known to be wrong is found before rendering. Exit codes: 0, 1 for files
 // and memory, 2 for a wrong command, 128 + the signal's number after an interruption.
-// With MPI, the root does all of this, and the other ranks render passes for it.
+// The root does all of this if there is MPI, and the other ranks render passes for it.
 #include "command_line.hpp"
 #include "images/image.hpp"
 #include "interruption.hpp"

@@ -19,7 +19,7 @@ namespace tracer {
 
 class TaskOrder {
   public:
-    // Before anything that the call captured is read; that is why these functions need no object.
+    // Called before anything that the call captured is read; that is why these functions need no object.
     static void task_begins() { acquire(begin_); }
     static void task_ends() { release(end_); }
     static void call_begins() { release(begin_); }

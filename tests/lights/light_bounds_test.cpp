@@ -97,7 +97,7 @@ TEST_CASE("a cone about two holds what either holds", "[light_bounds]") {
     CHECK(narrow > 300);
 }
 
-// By the corners of flat shapes: a point sees some of a flat light if it sees a corner.
+// The corners of flat shapes decide: a point sees some of a flat light if it sees a corner.
 template <class T>
 bool contributes(const auto& shape, Sides sides, const glm::vec<3, T>& point, const glm::vec<3, T>& normal) {
     for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0}) {

@@ -88,13 +88,7 @@ set(box --scene cornell --width 16 --height 16)
 expect(0 "relative error 1[0-9.]+ %.*, error 1[0-9.]+ of 20 %" ${box} --error 20%)
 expect(0 "relative error 1[0-9.]+ %.*, error 1[0-9.]+ of 20 %" ${box} --error 0.2 --seconds 1000)
 
-function(expect_same_files a b)
-    file(SHA256 ${FOLDER}/${a} hash_a)
-    file(SHA256 ${FOLDER}/${b} hash_b)
-    if(NOT hash_a STREQUAL hash_b)
-        message(FATAL_ERROR "${a} and ${b} differ")
-    endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/expect_same_files.cmake)
 
 # A rendering that is broken off twice, after its first pass and after its second, becomes the same image to the bit. The last
 # pass is shorter, and is not in the checkpoint: more samples continue from there, too.

@@ -55,7 +55,7 @@ class SteppedSky {
         return sky_.pixels[static_cast<std::size_t>(at(uv.y, sky_.height) * sky_.width + at(uv.x, sky_.width))];
     }
 
-    // From everywhere the same.
+    // The same from everywhere.
     struct Seen {
         const SteppedSky& sky;
 

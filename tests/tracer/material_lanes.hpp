@@ -70,7 +70,7 @@ class LanesAndNumbers {
         return gather<To, Packet>(of_each, all);
     }
 
-    // Of a delta material its coefficient.
+    // The coefficient of a delta material.
     template <lumis::Real R>
     static Scattering<R> value_at(const auto& bsdf, const Vector<R>& wi) {
         if constexpr (M::is_delta) {
@@ -90,7 +90,7 @@ class LanesAndNumbers {
         REQUIRE((M::is_delta || one.pdf > 0 || one.reflected == glm::vec3{0}));
     }
 
-    // Up to rounding. Where products are fused, numbers round in other ways than lanes.
+    // Equal up to rounding: where products are fused, numbers round in other ways than lanes.
     static bool close(float a, float b) {
         return a == b || std::abs(a - b) <= (fused ? 4096 : 16) * epsilon * std::abs(b);
     }

@@ -183,7 +183,7 @@ TEST_CASE("of a white sky metals lose what passes between their facets, and get 
 TEST_CASE("glass that absorbs nothing loses nothing but between its facets", "[materials]") {
     for (const glm::dvec3& wo : viewed_from(RoughGlass<float>{})) {
         INFO(label("wo ", wo));
-        // In a room whose radiance over the squared index is 1 everywhere.
+        // The room's radiance over the squared index is 1 everywhere.
         const double n = double{glass_index}, here = wo.z < 0 ? n : 1;
         const auto radiance = [&](const glm::dvec3& wi) { return (wi.z < 0 ? n * n : 1.0) / (here * here); };
         const double rough = quadrature(RoughGlass<float>{roughness, glass_index}, wo, radiance);
@@ -206,10 +206,10 @@ TEST_CASE("absorbing glass leaves less of light the longer its way", "[materials
     const Absorbing<SmoothGlass<float>> glass{{glass_index}, {0.1f, 0, 5}};
     const auto in_lanes = gather<decltype(glass)::In<Packet>, Packet>(std::vector{glass}, {});
     for (const float distance : {0.0f, 0.7f, 1e4f, 1e30f}) {
-        const glm::vec3 left = glass.left_after(distance);
+        const glm::vec3 left = left_after(distance, glass.absorption);
         CHECK(std::abs(double{left.x} - std::exp(-0.1 * double{distance})) <= 1e-7);
         CHECK(left.y == 1);
-        CHECK(lane_of<Packet>(in_lanes.left_after(Packet{distance}), 3) == left);
+        CHECK(lane_of<Packet>(left_after(Packet{distance}, in_lanes.absorption), 3) == left);
     }
 }
 
@@ -223,7 +223,7 @@ TEST_CASE("a pane of absorbing glass reflects and transmits what its surfaces do
         glm::vec3 wo{from};
         float throughput = 1;
         for (int bounce = 0;; ++bounce) {
-            if (wo.z < 0) throughput *= glass.left_after(-1 / wo.z).x;
+            if (wo.z < 0) throughput *= left_after(-1 / wo.z, glass.absorption).x;
             const auto bsdf = glass.strategy(wo);
             const auto drawn = bsdf.sample(uniforms.template next<3>());
             throughput *= bsdf.coefficient(drawn.value).x / drawn.pdf;

@@ -58,7 +58,7 @@ class Geometry {
         add(std::span<const Shape>{&shape, 1}, std::span<const Surface>{&surface, 1});
     }
 
-    // After the last shape and before the first ray.
+    // Called after the last shape and before the first ray.
     void commit();
 
     // The first surface ahead, in the lanes asked for.

@@ -85,7 +85,7 @@ class Emitters {
     }
 
   private:
-    // Where the library samples no packets, one lane takes its turn after the other.
+    // Lanes take turns where the library samples no packets.
     template <lumis::Real R>
     static constexpr bool samples_lanes = std::floating_point<R> || std::same_as<Sampling, lumis::ByArea> ||
                                           std::same_as<Shape<float>, lumis::Sphere<float>>;

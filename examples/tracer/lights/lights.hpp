@@ -20,8 +20,8 @@
 
 namespace tracer {
 
-// Where light is looked for: a point, and the side of its surface, below whose horizon it receives nothing. A surface that
-// transmits has no such side: its normal is 0.
+// The place where light is looked for: a point, and the side of its surface, below whose horizon it receives nothing. A surface
+// that transmits has no such side: its normal is 0.
 template <lumis::Real R>
 struct Receiver {
     Vector<R> position, normal;

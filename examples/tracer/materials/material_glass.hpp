@@ -89,9 +89,6 @@ struct Absorbing {
     [[nodiscard]] LUMIS_INLINE glm::vec<3, Scalar> albedo_seen(const glm::vec<3, Scalar>& wo) const {
         return glass.albedo_seen(wo);
     }
-    [[nodiscard]] glm::vec<3, Scalar> left_after(const Scalar& distance) const {
-        return tracer::left_after(distance, absorption);
-    }
 };
 
 }  // namespace tracer

@@ -1,4 +1,4 @@
-// Where a sample's uniforms come from: a source for lumis, of numbers in lanes.
+// The source of a sample's uniforms, of numbers in lanes.
 #pragma once
 
 #include "paths/packet.hpp"

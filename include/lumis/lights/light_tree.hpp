@@ -173,8 +173,8 @@ class BasicLightTree {
     // The most nodes that are looked at for a light.
     [[nodiscard]] LUMIS_HD unsigned levels() const noexcept { return levels_; }
 
-    // As seen from a point. normal: the unit normal of a surface that only reflects; lights below its horizon are left out.
-    // Leave it out where light is transmitted or scattered all around.
+    // The tree as seen from a point. normal: the unit normal of a surface that only reflects; lights below its horizon are
+    // left out. Give none where light is transmitted or scattered all around.
     // One uniform selects a light. Each light in reach has one of its lattice points at least: among a million lights, a 16th
     // of the draws are even in float.
     [[nodiscard]] LUMIS_HD LightTreeFrom<T> from(const glm::vec<3, T>& point) const noexcept LUMIS_LIFETIME_BOUND {

@@ -59,7 +59,7 @@ class SelectedLight {
 
     [[nodiscard]] LUMIS_HD Scalar pdf(const Point& x) const noexcept { return set_.pdf_of(x.index, x.direction); }
 
-    // To light x.index; infinity where x.direction misses it.
+    // The distance to light x.index; infinity where x.direction misses it.
     [[nodiscard]] LUMIS_HD Scalar distance_along(const Point& x) const noexcept requires requires(const Held& set) {
         set.distance_of(x.index, x.direction);
     }
@@ -92,7 +92,7 @@ class MetLight {
                       std::same_as<typename Drawing::Point, decltype(Point::direction)>,
                   "lights are met by directions of their own scalar type");
 
-    // Of `one` the type alone counts.
+    // The type alone of `one` counts.
     LUMIS_HD constexpr MetLight(const Selected&, S strategy LUMIS_LIFETIME_BOUND, Meet met)
         : strategy_{std::forward<S>(strategy)}, met_{std::move(met)} {}
 

@@ -136,8 +136,8 @@ template <std::floating_point T>
     return result;
 }
 
-// Where the counts of each child end; all 0 if none can light the point. A call, so that sampling and density compute the
-// same to the last bit.
+// The ends of each child's counts; all 0 if none can light the point. A call, so that sampling and density compute the same to
+// the last bit.
 template <std::floating_point T>
 [[nodiscard]] LUMIS_NOINLINE std::array<std::uint64_t, light_tree_width> deal_to_children(
     const LightTreeNode<T>& node, const LitPoint<T>& at, std::uint64_t counts) noexcept {
