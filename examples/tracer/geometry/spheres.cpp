@@ -32,7 +32,8 @@ Root<R> first_root(const lumis::Sphere<float>& sphere, const Ray<R>& ray, const 
     const Vector<R> across = to_center - along * ray.direction;  // from the ray, at its place nearest to the centre
     const R squared = sphere.radius * sphere.radius - glm::dot(across, across);
     const R half_chord = real::sqrt_or_zero(squared), in = along - half_chord, out = along + half_chord;
-    const Mask<R> enters = in > nearest && in<farthest, leaves = out> nearest && out < farthest;
+    const Mask<R> enters = in > nearest && in < farthest;
+    const Mask<R> leaves = out > nearest && out < farthest;
     const R distance = real::select(enters, in, out);
     return {squared > 0.0f && (enters || leaves), distance, distance * ray.direction - to_center};
 }
