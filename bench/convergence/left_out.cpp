@@ -91,14 +91,14 @@ std::optional<LeftOut> left_out(const std::string& scene, const tracer::Renderer
     std::array runners{Runner{composed, result.composed, 0}, Runner{*everything, result.everything, 0}};
     for (Runner& runner : runners) {
         Film trial{options.width, options.height};
-        const double taken = runner.renderer.add_pass(trial, "power", rendering, width, 0, 0);
+        const double taken = runner.renderer.add_pass(trial, "power", rendering, {0, width}, 0);
         runner.samples = width * std::max(1, static_cast<int>(seconds / taken));
     }
     for (const std::uint64_t seed : seeds) {
         for (const Runner& runner : runners) {
             progress(scene + (&runner == &runners[0] ? ", composed" : ", with everything in"));
             Film film{options.width, options.height};
-            const double taken = runner.renderer.add_pass(film, "power", rendering, runner.samples, seed, 0);
+            const double taken = runner.renderer.add_pass(film, "power", rendering, {0, runner.samples}, seed);
             const double pixels = static_cast<double>(film.pixels.size());
             runner.variant.seconds_per_sample.add(taken / (pixels * runner.samples));
             const tracer::Image image = film.image();
@@ -123,10 +123,10 @@ void render_for_instructions(const std::string& scene, const std::string& varian
     const auto renderer = make(scene, variant, {counted_width, counted_height, {}});
     const tracer::RenderOptions rendering = counted_options(scene);
     Film film{counted_width, counted_height};
-    renderer->add_pass(film, "power", rendering, samples, 1, 0);  // threads and tables are there from now on
+    renderer->add_pass(film, "power", rendering, {0, samples}, 1);  // threads and tables are there from now on
 #ifdef LUMIS_CALLGRIND
     CALLGRIND_START_INSTRUMENTATION;
-    renderer->add_pass(film, "power", rendering, samples, 1, 1);
+    renderer->add_pass(film, "power", rendering, {static_cast<std::uint32_t>(samples), samples}, 1);
     CALLGRIND_STOP_INSTRUMENTATION;
 #endif
 }

@@ -25,11 +25,12 @@ namespace {
 
 Image render(const tracer::Renderer& renderer, const tracer::RenderOptions& options, int width, int height, int samples,
              const char* integrator, std::uint64_t seed, const std::string& name, const Progress& progress) {
-    constexpr int longest_pass = 128;  // a few seconds; the longer, the evener its points
+    constexpr int longest_pass = 128;  // a few seconds
     tracer::Film film{width, height};
-    for (std::uint64_t pass = 0; film.samples() < samples; ++pass) {
+    while (film.samples() < samples) {
         progress(name + ", reference by " + integrator);
-        renderer.add_pass(film, integrator, options, std::min(longest_pass, samples - film.samples()), seed, pass);
+        const int count = std::min(longest_pass, samples - film.samples());
+        renderer.add_pass(film, integrator, options, {static_cast<std::uint32_t>(film.samples()), count}, seed);
     }
     return film.image();
 }

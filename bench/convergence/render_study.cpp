@@ -42,8 +42,9 @@ class Run {
             cpu_seconds_ = wall_seconds_ = 0;
         }
         const auto start = std::chrono::steady_clock::now();
-        cpu_seconds_ += renderer_.add_pass(film_, estimator_.integrator, estimator_.options,
-                                           static_cast<int>(samples) - film_.samples(), seed_, pass_++);
+        const int before = film_.samples();
+        const tracer::SampleRange pass{static_cast<std::uint32_t>(before), static_cast<int>(samples) - before};
+        cpu_seconds_ += renderer_.add_pass(film_, estimator_.integrator, estimator_.options, pass, seed_);
         wall_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
 
@@ -57,7 +58,6 @@ class Run {
     const Estimator& estimator_;
     std::uint64_t seed_;
     Film film_;
-    std::uint64_t pass_ = 0;
     double cpu_seconds_ = 0, wall_seconds_ = 0;
 };
 

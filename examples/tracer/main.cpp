@@ -200,15 +200,15 @@ int run(const Ranks& ranks, const Settings& settings) {
 // Renders what the root asks for, at every other rank. The command line is read after the root has found it right.
 void serve(const Ranks& ranks, int argc, char** argv) {
     Interruption::watch();  // the root decides what it means
-    Task task = ranks.receive_task();
-    if (task.samples == 0) return;
+    SampleRange task = ranks.receive_task();
+    if (task.count == 0) return;
     const Settings settings = std::get<Settings>(parse_command_line(argc, argv));
     const Work work{settings};
     const auto renderer = work.make_renderer(settings);
-    for (; task.samples > 0; task = ranks.receive_task()) {
+    for (; task.count > 0; task = ranks.receive_task()) {
         Film film{work.width, work.height};
         const double cpu_seconds =
-            renderer->add_pass(film, settings.integrator, settings.options(), task.samples, settings.seed, task.pass);
+            renderer->add_pass(film, settings.integrator, settings.options(), task, settings.seed);
         ranks.send_pass(film, cpu_seconds);
     }
 }

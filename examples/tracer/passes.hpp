@@ -51,8 +51,8 @@ class Passes {
         ask_until(pass + round);
         double cpu_seconds = 0;
         if (const int rank = rank_of(pass); rank == 0) {
-            cpu_seconds = renderer_.add_pass(film, settings_.integrator, settings_.options(), samples_of(pass),
-                                             settings_.seed, pass);
+            cpu_seconds =
+                renderer_.add_pass(film, settings_.integrator, settings_.options(), range_of(pass), settings_.seed);
         } else {
             while (!ranks_.has_pass(rank)) {
                 if (Interruption::received() != 0) return 0;
@@ -71,9 +71,13 @@ class Passes {
         return static_cast<int>(pass % static_cast<std::uint64_t>(ranks_.count()));
     }
 
+    [[nodiscard]] SampleRange range_of(std::uint64_t pass) const {
+        return {static_cast<std::uint32_t>(pass) * static_cast<std::uint32_t>(pass_samples_), samples_of(pass)};
+    }
+
     void ask_until(std::uint64_t end) {
         for (; asked_ < end && samples_of(asked_) > 0; ++asked_) {
-            if (rank_of(asked_) != 0) ranks_.send_task(rank_of(asked_), {asked_, samples_of(asked_)});
+            if (rank_of(asked_) != 0) ranks_.send_task(rank_of(asked_), range_of(asked_));
         }
     }
 

@@ -3,16 +3,9 @@
 #pragma once
 
 #include "film/film.hpp"
-
-#include <cstdint>
+#include "render_options.hpp"
 
 namespace tracer {
-
-// A pass that the root asks another rank to render; without samples, the rank's work is done.
-struct Task {
-    std::uint64_t pass;
-    std::int32_t samples;  // of each pixel
-};
 
 // One object, which outlives all else that a rank does. Rank 0 is the root; the others hear from it alone.
 class Ranks {
@@ -27,15 +20,16 @@ class Ranks {
     [[nodiscard]] int rank() const { return rank_; }
     [[nodiscard]] int count() const { return count_; }
 
-    // Called at the root. A rank takes its next task after it has sent the pass of the last one.
-    void send_task(int rank, const Task& task) const;
+    // Called at the root. A task is the samples of a pass; one without samples ends the rank's work. A rank takes its next task
+    // after it has sent the pass of the last one.
+    void send_task(int rank, const SampleRange& task) const;
     // Whether the pass of a rank's task has been rendered, so that receive_pass need not wait.
     [[nodiscard]] bool has_pass(int rank) const;
     // Fills a film of the same size with that pass; returns the CPU seconds spent on it.
     double receive_pass(int rank, Film& film) const;
 
     // Called at the others.
-    [[nodiscard]] Task receive_task() const;
+    [[nodiscard]] SampleRange receive_task() const;
     void send_pass(const Film& film, double cpu_seconds) const;
 
     // Ends the processes of all ranks at once.

@@ -13,7 +13,7 @@ void Ranks::abort(int exit_code) const {
 }
 
 // There is no rank to call these.
-void Ranks::send_task(int, const Task&) const {
+void Ranks::send_task(int, const SampleRange&) const {
     abort(1);
 }
 bool Ranks::has_pass(int) const {
@@ -22,7 +22,7 @@ bool Ranks::has_pass(int) const {
 double Ranks::receive_pass(int, Film&) const {
     abort(1);
 }
-Task Ranks::receive_task() const {
+SampleRange Ranks::receive_task() const {
     abort(1);
 }
 void Ranks::send_pass(const Film&, double) const {

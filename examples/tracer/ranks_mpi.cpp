@@ -15,7 +15,7 @@ namespace {
 // What a message holds.
 enum Tag { of_task, of_cpu_seconds, of_pixels };
 
-static_assert(std::is_trivially_copyable_v<Task> && std::is_trivially_copyable_v<Pixel>);
+static_assert(std::is_trivially_copyable_v<SampleRange> && std::is_trivially_copyable_v<Pixel>);
 
 bool has_message(int rank, Tag tag) {
     int is_there = 0;
@@ -58,12 +58,12 @@ Ranks::~Ranks() {
     MPI_Finalize();
 }
 
-void Ranks::send_task(int rank, const Task& task) const {
+void Ranks::send_task(int rank, const SampleRange& task) const {
     MPI_Send(&task, sizeof(task), MPI_BYTE, rank, of_task, MPI_COMM_WORLD);
 }
 
-Task Ranks::receive_task() const {
-    Task task{};
+SampleRange Ranks::receive_task() const {
+    SampleRange task{};
     await(0, of_task);
     MPI_Recv(&task, sizeof(task), MPI_BYTE, 0, of_task, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     return task;

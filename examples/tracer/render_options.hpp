@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string_view>
 
 namespace tracer {
@@ -27,6 +28,12 @@ template <class Names>
 
 inline constexpr std::array<Named<Sampler>, 2> samplers{{{"sobol", Sampler::Sobol}, {"random", Sampler::Random}}};
 inline constexpr std::array<Named<Filter>, 2> filters{{{"box", Filter::Box}, {"tent", Filter::Tent}}};
+
+// Some of a pixel's samples, which are numbered from 0: those of a pass.
+struct SampleRange {
+    std::uint32_t first;
+    std::int32_t count;
+};
 
 struct RenderOptions {
     int bounces = 5;  // of a path: 0 shows emission alone, 1 direct light

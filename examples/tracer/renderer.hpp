@@ -21,10 +21,10 @@ class Renderer {
     // What samples this scene: a line for each kind of material and each group of lights, read off their types.
     [[nodiscard]] virtual std::vector<std::string> strategies() const = 0;
 
-    // Adds a pass of so many samples to every pixel; whole packets (paths/packet.hpp) take the least time. What is added
-    // depends on the seed and the pass alone, never on the threads. Returns the CPU seconds that all threads together spent.
-    virtual double add_pass(Film& film, std::string_view integrator, const RenderOptions& options, int samples,
-                            std::uint64_t seed, std::uint64_t pass) const = 0;
+    // Adds a pass to every pixel; whole packets (paths/packet.hpp) take the least time. What is added depends on the seed and
+    // the samples alone, never on the threads. Returns the CPU seconds that all threads together spent.
+    virtual double add_pass(Film& film, std::string_view integrator, const RenderOptions& options,
+                            const SampleRange& samples, std::uint64_t seed) const = 0;
 };
 
 struct SceneOptions {

@@ -34,8 +34,8 @@ class SceneRenderer final : public Renderer {
         return names;
     }
 
-    double add_pass(Film& film, std::string_view integrator, const RenderOptions& options, int samples,
-                    std::uint64_t seed, std::uint64_t pass) const override {
+    double add_pass(Film& film, std::string_view integrator, const RenderOptions& options, const SampleRange& samples,
+                    std::uint64_t seed) const override {
         const Integrator chosen = value_named(integrators, integrator);
         // Optimal weights are learnt from samples that are independent of each other.
         const Sampler sampler = chosen == Integrator::Optimal ? Sampler::Random : options.sampler;
@@ -43,7 +43,7 @@ class SceneRenderer final : public Renderer {
             TaskOrder::task_begins();
             const ThreadClock clock;
             for (std::size_t i = pixels.begin(); i < pixels.end(); ++i) {
-                PixelUniforms<R> uniforms{sampler, seed, i, pass};
+                PixelUniforms<R> uniforms{sampler, seed, i, samples.first};
                 add_pixel(film.pixels[i], i, chosen, options, samples, uniforms);
             }
             TaskOrder::task_ends();
@@ -57,8 +57,8 @@ class SceneRenderer final : public Renderer {
     }
 
   private:
-    void add_pixel(Pixel& pixel, std::size_t index, Integrator integrator, const RenderOptions& options, int samples,
-                   PixelUniforms<R>& uniforms) const {
+    void add_pixel(Pixel& pixel, std::size_t index, Integrator integrator, const RenderOptions& options,
+                   const SampleRange& samples, PixelUniforms<R>& uniforms) const {
         const auto column = static_cast<float>(index % static_cast<std::size_t>(width_)),
                    row = static_cast<float>(index / static_cast<std::size_t>(width_));
         PathTracer<S, R> paths{scene_, integrator, options.bounces, uniforms};
@@ -66,22 +66,22 @@ class SceneRenderer final : public Renderer {
         glm::vec3 albedo{0}, normal{0};
         typename PathTracer<S, R>::Rounds::Sums direct;  // by optimal weights
         const int width = static_cast<int>(lanes<R>);
-        for (int sample = 0; sample < samples; sample += width) {
-            uniforms.start(static_cast<std::uint32_t>(sample));
+        for (int sample = 0; sample < samples.count; sample += width) {
+            uniforms.start(samples.first + static_cast<std::uint32_t>(sample));
             const glm::vec<2, R> u = uniforms.template next<2>();
             const R x = column + 0.5f + filter_offset(options.filter, u.x),
                     y = row + 0.5f + filter_offset(options.filter, u.y);
-            const Mask<R> asked = mask_of<R>([&](auto i) { return sample + static_cast<int>(i) < samples; });
+            const Mask<R> asked = mask_of<R>([&](auto i) { return sample + static_cast<int>(i) < samples.count; });
             const Found<R> found = paths.along(view_.template ray<R>(x, y), asked, direct);
-            for (std::size_t i = 0; i < lanes<R> && sample + static_cast<int>(i) < samples; ++i) {
+            for (std::size_t i = 0; i < lanes<R> && sample + static_cast<int>(i) < samples.count; ++i) {
                 sum += glm::dvec3{lane_of(found.radiance, i)};
                 albedo += lane_of(found.albedo, i);
                 normal += lane_of(found.normal, i);
             }
         }
-        sum += static_cast<double>(samples) * glm::dvec3{direct.estimate()};
+        sum += static_cast<double>(samples.count) * glm::dvec3{direct.estimate()};
         // Sums of the whole pass are added, so that a film of one pass that is merged gives the same bits.
-        pixel.add_pass(sum, static_cast<std::uint32_t>(samples));
+        pixel.add_pass(sum, static_cast<std::uint32_t>(samples.count));
         pixel.albedo += albedo;
         pixel.normal += normal;
     }

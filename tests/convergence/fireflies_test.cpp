@@ -40,12 +40,12 @@ TEST_CASE("only single techniques and their average show fireflies on veach") {
     const tracer::RenderOptions direct{.bounces = 1, .sampler = tracer::Sampler::Random};
     const auto renderer = tracer::find_scene("veach")->make({width, height, {}});
     tracer::Film reference{width, height};
-    renderer->add_pass(reference, "balance", {.bounces = 1}, 64, 1, 0);
+    renderer->add_pass(reference, "balance", {.bounces = 1}, {0, 64}, 1);
     for (const auto integrator : tracer::integrator_names()) {
         int fireflies = 0;  // of three images
         for (std::uint64_t seed = 1; seed <= 3; ++seed) {
             tracer::Film film{width, height};
-            renderer->add_pass(film, integrator, direct, 16, seed, 0);
+            renderer->add_pass(film, integrator, direct, {0, 16}, seed);
             fireflies += count_fireflies(film.image(), reference.image());
         }
         INFO(integrator << ": " << fireflies);

@@ -26,10 +26,11 @@ BlockMoments block_moments(const Renderer& renderer, const Rendering& rendering,
                            std::uint64_t seed) {
     constexpr int passes = 32;
     BlockMoments moments{rendering.width, rendering.height};
-    for (std::uint64_t pass = 0; pass < passes; ++pass) {
+    for (std::uint64_t pass = 1; pass <= passes; ++pass) {
         Film film{rendering.width, rendering.height}, emission = film;
-        renderer.add_pass(film, integrator, {.bounces = rendering.bounces}, rendering.samples, seed, pass);
-        renderer.add_pass(emission, integrator, {.bounces = 0}, rendering.samples, seed, pass);
+        renderer.add_pass(film, integrator, {.bounces = rendering.bounces}, {0, rendering.samples},
+                          seed * passes + pass);
+        renderer.add_pass(emission, integrator, {.bounces = 0}, {0, rendering.samples}, seed * passes + pass);
         for (std::size_t i = 0; i < film.pixels.size(); ++i) film.pixels[i].sum -= emission.pixels[i].sum;
         moments.add(film.image());
     }

@@ -19,7 +19,8 @@ using namespace tracer;
 Film render(const Renderer& renderer, std::size_t threads) {
     const oneapi::tbb::global_control limit{oneapi::tbb::global_control::max_allowed_parallelism, threads};
     Film film{40, 30};
-    for (std::uint64_t pass = 0; pass < 4; ++pass) renderer.add_pass(film, "power", RenderOptions{}, 16, 1, pass);
+    for (std::uint32_t first = 0; first < 64; first += 16)
+        renderer.add_pass(film, "power", RenderOptions{}, {first, 16}, 1);
     return film;
 }
 

@@ -15,8 +15,8 @@ namespace tracer {
 // Samples of a pixel in a rendering: with more, a sum in float, of an albedo, stops growing.
 inline constexpr int max_samples = 1 << 24;
 
-// Samples of a pass may depend on each other, as points of a low-discrepancy sequence do; passes are independent. The
-// error is therefore read off the spread of passes.
+// The error is read off the spread of passes, not of samples: those of a pass may be points of a low-discrepancy sequence. Where
+// passes continue one sequence, their errors cancel in part, and the error of the image is less than what their spread says.
 struct Pixel {
     glm::dvec3 sum{0};      // of the samples' radiance
     glm::dvec3 squares{0};  // sum over passes of (sum of the pass)^2 / (samples of the pass)
@@ -33,7 +33,7 @@ struct Pixel {
     // 0 without samples.
     [[nodiscard]] glm::dvec3 mean() const noexcept { return sum / static_cast<double>(samples > 0 ? samples : 1); }
 
-    // The variance of mean(), unbiased; infinite before the second pass. If a pass of n samples has variance v / n, the
+    // The variance of mean(), unbiased if passes are independent; infinite before the second pass. If a pass of n samples has variance v / n, the
     // sum over passes of n (mean of the pass - mean)^2 has expectation (passes - 1) v.
     [[nodiscard]] glm::dvec3 variance() const noexcept;
 };

@@ -73,10 +73,12 @@ class PathTracer {
             Rounds* const rounds = integrator_ == Integrator::Optimal && bounce == 1 ? &rounds_ : nullptr;
             if (bounce == 1) asks_first = asks;
 
-            // Directions of both: towards lights, and by the BSDF.
+            // Directions of both: by the BSDF, and towards lights. The BSDF's uniforms come first, for Sobol's points are even in
+            // four dimensions: those of the pixel's filter and of the first direction.
+            const auto u = uniforms_.template next<S::MaterialTable::dimensions>();
             Draws draws;
             if (asks_lights(integrator_)) draw_from(lights, bounce, asks, draws);
-            const Scattered next = scattered(on, vertex, alive, goes_on, asks, draws);
+            const Scattered next = scattered(on, vertex, alive, goes_on, asks, u, draws);
             if (bounce == 1) found.albedo = next.albedo;
             if (any(asks)) found.radiance += throughput * direct_light(draws, vertex, absorption, asks, rounds);
 
@@ -210,9 +212,9 @@ class PathTracer {
 
     // Draws by the BSDF in the lanes that go on, and tells lanes that ask lights what it scatters of their draws.
     [[nodiscard]] LUMIS_INLINE Scattered scattered(const Surfaces& on, const Vertex& vertex, const Mask<R>& alive,
-                                                   const Mask<R>& goes_on, const Mask<R>& asks, Draws& draws) {
+                                                   const Mask<R>& goes_on, const Mask<R>& asks, const auto& u,
+                                                   Draws& draws) {
         Scattered next{up, black, R(0.0f), Mask<R>(false), black, Mask<R>(false), black};
-        const auto u = uniforms_.template next<S::MaterialTable::dimensions>();
         scene_.materials().template visit<R>(
             on.kind, on.material, alive, [&](const auto& material, const Mask<R>& mask) {
                 using Material = std::remove_cvref_t<decltype(material)>;

@@ -11,18 +11,19 @@
 
 namespace tracer {
 
-// Uniforms of one pixel in one pass. Points of Sobol's sequence belong to one randomisation, of its own for each pixel and pass.
+// Uniforms of one pixel in one pass, whose first sample is `first`. All passes of a pixel take points of one Sobol sequence, with
+// a randomisation of the pixel's own; random numbers are a stream of the pass's own.
 template <lumis::Real R>
 class PixelUniforms {
   public:
-    PixelUniforms(Sampler sampler, std::uint64_t seed, std::uint64_t pixel, std::uint64_t pass)
-        : is_random_{sampler == Sampler::Random}, random_{random_stream(seed, pixel, pass)} {
-        if (!is_random_) sobol_.start(mixed(mixed(seed + mixed(pass)) + pixel), 0);
+    PixelUniforms(Sampler sampler, std::uint64_t seed, std::uint64_t pixel, std::uint32_t first)
+        : is_random_{sampler == Sampler::Random}, random_{random_stream(seed, pixel, first)} {
+        if (!is_random_) sobol_.start(mixed(mixed(seed) + pixel), first);
     }
 
-    // The uniforms of the samples `first` and, in the other lanes, of those that follow.
-    void start(std::uint32_t first) {
-        if (!is_random_) sobol_.start(first);
+    // The uniforms of a sample and, in the other lanes, of those that follow.
+    void start(std::uint32_t sample) {
+        if (!is_random_) sobol_.start(sample);
     }
 
     template <int N>
