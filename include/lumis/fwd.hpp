@@ -131,9 +131,9 @@ template <Real R>
 struct SurfaceSample;
 template <Real R>
 struct SurfaceHit;
-template <std::floating_point T>
+template <Real T>
 class PointLight;
-template <std::floating_point T>
+template <Real T>
 class DirectionalLight;
 template <Real T>
 class Sun;

@@ -100,12 +100,26 @@ struct Sun {
     }
 };
 
-// Made of a normal: x, y, z.
-struct InFrameOfNormal {
+struct MakeInFrame {
+    template <class R>
+    auto operator()(const lumis::Direction<R>& normal) const {
+        return lumis::in_frame(lumis::Frame<R>{normal}, lumis::CosineHemisphere<R>{});
+    }
+};
+struct MakeDirectionalLight {
+    template <class R>
+    auto operator()(const lumis::Direction<R>& w) const {
+        return lumis::DirectionalLight<R>{w};
+    }
+};
+
+// Made of a unit vector: x, y, z.
+template <class MakeOf>
+struct OfUnitVector {
     static constexpr std::size_t parameters = 3;
     template <class R>
     static auto make(const std::array<R, 3>& n) {
-        return lumis::in_frame(lumis::Frame<R>{lumis::Direction<R>{n[0], n[1], n[2]}}, lumis::CosineHemisphere<R>{});
+        return MakeOf{}(lumis::Direction<R>{n[0], n[1], n[2]});
     }
     template <class T>
     static std::array<T, 3> random(std::mt19937& engine) {
@@ -384,14 +398,26 @@ struct MakeSphere {
     }
 };
 
+struct MakePointLight {
+    template <class R>
+    auto operator()(const std::array<R, 6>& p) const {
+        return lumis::PointLight{vector_at(p, 0), vector_at(p, 3)};
+    }
+    template <class T>
+    static std::vector<std::array<T, 6>> degenerate() {
+        return {{1, 2, 3, 1, 2, 3}};
+    }
+};
+
 using WithOwnParameters =
     std::tuple<WithoutParameters<lumis::CosineHemisphere>, WithoutParameters<lumis::UniformHemisphere>,
-               WithoutParameters<lumis::UniformSphere>, Cone, HenyeyGreenstein, Sun, InFrameOfNormal, InFrameOfThree,
-               OfDirectionAndRoughness<MakeGgxNdf>, OfDirectionAndRoughness<MakeGgxVndf>,
-               OfDirectionAndRoughness<MakeGgxReflection>, OfDirectionAndRoughness<MakeGgxBoundedReflection>,
-               OfDirectionAndRoughness<MakeReflectedNdf>, OfDirectionAndRoughness<MakePerfectReflection>,
-               MixtureOfLobes, OfBoundary<MakeGgxDielectric>, OfBoundary<MakeSmoothDielectric>, Light<MakeTriangle, 12>,
-               Light<MakeParallelogram, 12>, Light<MakeDisk, 10>, Light<MakeSphere<lumis::ByArea>, 7>,
-               Light<MakeSphere<lumis::BySolidAngle>, 7>>;
+               WithoutParameters<lumis::UniformSphere>, Cone, HenyeyGreenstein, Sun, OfUnitVector<MakeDirectionalLight>,
+               OfUnitVector<MakeInFrame>, InFrameOfThree, OfDirectionAndRoughness<MakeGgxNdf>,
+               OfDirectionAndRoughness<MakeGgxVndf>, OfDirectionAndRoughness<MakeGgxReflection>,
+               OfDirectionAndRoughness<MakeGgxBoundedReflection>, OfDirectionAndRoughness<MakeReflectedNdf>,
+               OfDirectionAndRoughness<MakePerfectReflection>, MixtureOfLobes, OfBoundary<MakeGgxDielectric>,
+               OfBoundary<MakeSmoothDielectric>, Light<MakeTriangle, 12>, Light<MakeParallelogram, 12>,
+               Light<MakeDisk, 10>, Light<MakeSphere<lumis::ByArea>, 7>, Light<MakeSphere<lumis::BySolidAngle>, 7>,
+               Light<MakePointLight, 6>>;
 
 }  // namespace subjects

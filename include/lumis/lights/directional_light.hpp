@@ -9,7 +9,7 @@
 
 namespace lumis::LUMIS_ISA {
 
-template <std::floating_point T = float>
+template <Real T = float>
 class DirectionalLight {
   public:
     using Scalar = T;
@@ -20,15 +20,16 @@ class DirectionalLight {
     static constexpr bool is_delta = true;
 
     // direction: unit, towards the light.
-    LUMIS_HD constexpr explicit DirectionalLight(const Direction<T>& direction) noexcept
-        : direction_{detail::unit_or(direction, T(0))} {
-        LUMIS_ASSERT(detail::is_unit(direction));
+    LUMIS_INLINE constexpr explicit DirectionalLight(const Direction<T>& direction) noexcept
+        : direction_{detail::unit_or(direction, 0)} {
+        LUMIS_ASSERT(real::all(detail::is_unit(direction)));
     }
 
     template <RealOf<T> R = T>
-    [[nodiscard]] LUMIS_HD constexpr LightSample<Direction<R>, R> sample(glm::vec<2, R>) const noexcept {
-        if (!detail::is_unit(direction_)) return {};
-        return {Direction<R>(direction_), T(1), std::numeric_limits<T>::infinity()};
+    [[nodiscard]] LUMIS_INLINE constexpr LightSample<Direction<R>, R> sample(glm::vec<2, R>) const noexcept {
+        const auto is_drawn = detail::is_unit(direction_);
+        return {Direction<R>(direction_), real::select(is_drawn, T(1), 0),
+                std::numeric_limits<scalar_of<T>>::infinity()};
     }
 
     template <RealOf<T> R = T>
