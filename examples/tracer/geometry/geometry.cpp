@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -68,6 +69,17 @@ void Geometry::add(std::span<const lumis::Triangle<float>> shapes, std::span<con
     for (std::uint32_t i = 0, at = 0; const auto& [a, b, c] : shapes) {
         indices[i++] = glm::uvec3{at, at + 1, at + 2};
         for (const glm::vec3& corner : {a, b, c}) vertices[at++] = corner;
+    }
+    attach(geometry, surfaces);
+}
+
+void Geometry::add(std::span<const lumis::Disk<float>> shapes, std::span<const Surface> surfaces) {
+    const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
+    const auto disks = new_buffer<glm::vec4>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, shapes.size());
+    const auto normals = new_buffer<glm::vec3>(geometry, RTC_BUFFER_TYPE_NORMAL, RTC_FORMAT_FLOAT3, shapes.size());
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        disks[i] = {shapes[i].center, shapes[i].radius};
+        normals[i] = shapes[i].normal;
     }
     attach(geometry, surfaces);
 }

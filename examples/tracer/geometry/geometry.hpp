@@ -52,6 +52,7 @@ class Geometry {
     // Shapes of one kind, and the surface of each.
     void add(std::span<const lumis::Parallelogram<float>> shapes, std::span<const Surface> surfaces);
     void add(std::span<const lumis::Triangle<float>> shapes, std::span<const Surface> surfaces);
+    void add(std::span<const lumis::Disk<float>> shapes, std::span<const Surface> surfaces);
     void add(std::span<const lumis::Sphere<float>> shapes, std::span<const Surface> surfaces);
     template <class Shape>
     void add(const Shape& shape, const Surface& surface) {
