@@ -5,6 +5,7 @@
 #include "paths/packet.hpp"
 #include <lumis/lumis.hpp>
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +22,19 @@ struct LightDraw {
     Vector<R> radiance;
 };
 
+// Sampling of a shape without extent, see delta_lights.hpp.
+struct Delta {};
+
+// The strategy of the library that draws directions towards a shape.
+template <class Shape, class Sampling>
+struct StrategyOf {
+    using Type = lumis::AreaLight<Shape, Sampling>;
+};
+template <class Shape>
+struct StrategyOf<Shape, Delta> {
+    using Type = typename Shape::Strategy;
+};
+
 // A light of a shape.
 template <class Shape>
 struct Emitter {
@@ -31,6 +45,9 @@ struct Emitter {
 template <template <class> class Shape, class Sampling>
 class Emitters {
   public:
+    static constexpr bool is_delta = std::same_as<Sampling, Delta>;
+    using Strategy = typename StrategyOf<Shape<float>, Sampling>::Type;
+
     // Returns the light's index.
     std::uint32_t add(const Shape<float>& shape, const glm::vec3& radiance) {
         table_.push_back({shape, radiance});
@@ -47,7 +64,10 @@ class Emitters {
     [[nodiscard]] LUMIS_INLINE LightDraw<R> sample(const Indices<R>& light, const Vector<R>& from,
                                                    const glm::vec<2, R>& u) const {
         const Emitter<Shape<R>> emitter = gather<Emitter<Shape<R>>, R>(table_, light);
-        if constexpr (samples_lanes<R>) {
+        if constexpr (is_delta) {
+            const auto drawn = emitter.shape.drawn_from(from);
+            return {drawn.value, drawn.pdf, drawn.distance, emitter.radiance};
+        } else if constexpr (samples_lanes<R>) {
             const auto drawn = lumis::AreaLight<Shape<R>, Sampling>{emitter.shape, from}.sample(u);
             return {drawn.value, drawn.pdf, drawn.distance, emitter.radiance};
         } else {
@@ -69,11 +89,14 @@ class Emitters {
         }
     }
 
-    // The density with which it draws a direction that has met the light: at this distance, the cosine that at the light.
+    // The density with which it draws a direction that has met the light: at this distance, the cosine that at the light. No
+    // ray meets a light without extent.
     template <lumis::Real R>
     [[nodiscard]] LUMIS_INLINE R pdf_from_hit(const Indices<R>& light, const Vector<R>& from, const R& distance,
                                               const R& cosine) const {
-        if constexpr (samples_lanes<R>) {
+        if constexpr (is_delta) {
+            return R(0.0f);
+        } else if constexpr (samples_lanes<R>) {
             const auto shape = gather<Emitter<Shape<R>>, R>(table_, light).shape;
             return lumis::AreaLight<Shape<R>, Sampling>{shape, from}.pdf_from_hit(distance, cosine);
         } else {

@@ -24,7 +24,7 @@ namespace tracer {
 
 class Environment {
   public:
-    static constexpr bool is_background = true;
+    static constexpr bool is_background = true, is_delta = false;
     static constexpr std::size_t samples = 1;
     using Strategy = lumis::EnvironmentMap<float>;
 
@@ -57,12 +57,7 @@ class Environment {
             return {drawn.value, drawn.pdf, drawn.distance, environment_.radiance_at<R>(drawn.uv)};
         }
 
-        // What a ray meets that meets nothing else.
-        struct Met {
-            Vector<R> radiance;
-            R pdf;
-        };
-        [[nodiscard]] Met met(const Vector<R>& w) const {
+        [[nodiscard]] MetSky<R> met(const Vector<R>& w) const {
             const auto uv = lumis::latlong_from_direction(w);
             return {environment_.radiance_at<R>(uv), strategy_.pdf_at(uv)};
         }

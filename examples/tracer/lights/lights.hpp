@@ -28,6 +28,13 @@ struct Receiver {
     bool has_bsdf_samples;  // which find what samples of light leave out
 };
 
+// What a ray meets that meets no surface: the radiance, and the density of its direction.
+template <lumis::Real R>
+struct MetSky {
+    Vector<R> radiance;
+    R pdf;
+};
+
 // A ball that holds a shape, and the shape's largest cross-section.
 template <lumis::Real R>
 struct Extent {
@@ -41,6 +48,9 @@ struct Extent {
     const float diagonal = std::max(glm::length(p.edge_u + p.edge_v), glm::length(p.edge_u - p.edge_v));
     return {p.corner + 0.5f * (p.edge_u + p.edge_v), 0.5f * diagonal, glm::length(glm::cross(p.edge_u, p.edge_v))};
 }
+[[nodiscard]] inline Extent<float> extent(const lumis::Disk<float>& d) {
+    return {d.center, d.radius, std::numbers::pi_v<float> * d.radius * d.radius};
+}
 
 // A few lights of one shape: one is chosen in proportion to the irradiance that each can cause at most, roughly, and sampled.
 // Each is asked at every point: for up to eight.
@@ -49,8 +59,8 @@ template <template <class> class Shape, class Sampling, std::size_t Samples = 1>
 class FewLights {
   public:
     static constexpr std::size_t most = 8, samples = Samples;
-    static constexpr bool is_background = false;
-    using Strategy = lumis::AreaLight<Shape<float>, Sampling>;
+    static constexpr bool is_background = false, is_delta = Emitters<Shape, Sampling>::is_delta;
+    using Strategy = typename Emitters<Shape, Sampling>::Strategy;
 
     // Returns the light's index.
     std::uint32_t add(const Shape<float>& shape, const glm::vec3& radiance) {
@@ -135,9 +145,17 @@ class FewLights {
 // The groups of lights of a scene. At most one of them is a background: it shines where rays meet nothing.
 template <class... Groups>
 class Lights {
+    static_assert((std::size_t{Groups::is_background} + ...) <= 1, "two backgrounds are one group: SunAndSky");
+
   public:
     static constexpr std::array<std::size_t, sizeof...(Groups)> counts{Groups::samples...};  // of samples at a point
     static constexpr std::size_t samples = (Groups::samples + ...);
+
+    // Whether no ray can meet the lights of a group: a BSDF never draws them, whatever the density of its directions.
+    [[nodiscard]] static constexpr bool is_delta(std::size_t group) {
+        constexpr std::array<bool, sizeof...(Groups)> are{Groups::is_delta...};
+        return (Groups::is_delta || ...) && are[group];
+    }
 
     Lights() = default;
     explicit Lights(Groups... groups) : groups_{std::move(groups)...} {}

@@ -21,7 +21,7 @@ template <template <class> class Shape, class Sampling>
 class ManyLights {
   public:
     static constexpr std::size_t samples = 1;
-    static constexpr bool is_background = false;
+    static constexpr bool is_background = false, is_delta = false;
     using Strategy = lumis::AreaLight<Shape<float>, Sampling>;
 
     ManyLights() = default;
