@@ -226,7 +226,8 @@ class PathTracer {
                     const Mask<R> hears = mask && asks;
                     if (any(hears)) {
                         for (Draw& draw : draws) {
-                            const Scattering<R> one = bsdf.evaluate(frame.to_local(draw.light.direction));
+                            Scattering<R> one = bsdf.evaluate(frame.to_local(draw.light.direction));
+                            if (S::LightTable::is_delta(draw.group)) one.pdf = R(0.0f);
                             draw.scattering = {lumis::real::select(hears, one.reflected, draw.scattering.reflected),
                                                lumis::real::select(hears, one.pdf, draw.scattering.pdf)};
                         }
