@@ -9,7 +9,7 @@ namespace tracer {
 
 namespace {
 
-constexpr std::array<SceneEntry, 10> all_scenes{{
+constexpr std::array<SceneEntry, 11> all_scenes{{
     {"veach", "Veach's plates and spheres",
      "Four coated plates, the farthest the smoothest, reflect five sphere lights of falling size and rising radiance. "
      "Sampling the lights fails where a smooth plate mirrors a large light, sampling the BSDF where a rough one "
@@ -43,6 +43,9 @@ constexpr std::array<SceneEntry, 10> all_scenes{{
      256, 256, false, make_slab},
     {"many-lights", "Ten thousand lights",
      "A spiral of small spheres, of which a light tree chooses one for each point.", 640, 400, false, make_many_lights},
+    {"sundial", "A sundial at dusk",
+     "Sun, moon, a lantern and a round lamp: shadows are soft or sharp as their lights are wide or have no extent.",
+     640, 400, false, make_sundial},
     {"mesh", "An OBJ file", "Triangles, of which any number may shine; the room shipped, unless a file is named.", 480,
      360, true, make_mesh},
 }};

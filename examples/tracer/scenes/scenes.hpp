@@ -16,6 +16,7 @@ namespace tracer {
 [[nodiscard]] std::unique_ptr<Renderer> make_glass(const SceneOptions& options);
 [[nodiscard]] std::unique_ptr<Renderer> make_slab(const SceneOptions& options);
 [[nodiscard]] std::unique_ptr<Renderer> make_many_lights(const SceneOptions& options);
+[[nodiscard]] std::unique_ptr<Renderer> make_sundial(const SceneOptions& options);
 [[nodiscard]] std::unique_ptr<Renderer> make_mesh(const SceneOptions& options);
 
 }  // namespace tracer
