@@ -1,5 +1,6 @@
 // Scenes with known answers: images differ from them by chance alone, of the size that the images report themselves.
 #include "catch.hpp"
+#include "lit_plane.hpp"
 #include "renderer.hpp"
 #include "scene_renderer.hpp"
 #include "scenes/scene_box.hpp"
@@ -11,8 +12,11 @@
 #include <boost/math/distributions/normal.hpp>
 
 #include <cmath>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -40,12 +44,13 @@ struct Total {
     }
 };
 
-void require_answer(const Renderer& renderer, int bounces, int samples, const auto& answer_at) {
+void require_answer(const Renderer& renderer, int bounces, int samples, const auto& answer_at,
+                    std::span<const std::string_view> integrators = integrator_names()) {
     constexpr int passes = 8;
     constexpr std::size_t regions = (width / block) * (height / block) + 1;  // the last is the whole
-    const double limit = limit_of(3 * regions * integrator_names().size() * samplers.size());
+    const double limit = limit_of(3 * regions * integrators.size() * samplers.size());
     for (const auto& [sampler_name, sampler] : samplers) {
-        for (const std::string_view integrator : integrator_names()) {
+        for (const std::string_view integrator : integrators) {
             INFO(sampler_name << ", " << integrator);
             // The one-sample model ends a path, or goes on without light: few paths are long, and count much.
             const int enough = integrator == "one-sample" ? 4 * samples : samples;
@@ -91,6 +96,21 @@ glm::dvec3 mean_over_pixel(const View& view, int x, int y, const auto& radiance)
     return sum / double{points * points};
 }
 
+template <class Background>
+void require_lit_plane(const Brightness& of, int samples, bool finds_all,
+                       std::span<const std::string_view> integrators) {
+    using Plane = LitPlane<Background>;
+    const View view{Plane::camera(), width, height};
+    const SceneRenderer<Plane> renderer{Plane{of}, {width, height, {}}, Plane::camera()};
+    const auto answer_at = [&](int x, int y) {
+        return mean_over_pixel(view, x, y, [&](const glm::dvec3& w) {
+            const double distance = double{Plane::camera().position.y} / -w.y;
+            return Plane::radiance({distance * w.x, 0, distance * w.z}, of, finds_all);
+        });
+    };
+    require_answer(renderer, 1, samples, answer_at, integrators);
+}
+
 // The share of pixels that are the same in both, up to rounding.
 double share_alike(const Film& a, const Film& b) {
     constexpr double tolerance = 1e-4;
@@ -130,6 +150,18 @@ TEST_CASE("a slab of glass lets through what Fresnel and Beer say") {
             });
         });
     }
+}
+
+TEST_CASE("a plane receives of every light what its shape says") {
+    const auto bsdf_and_rest = integrator_names();
+    REQUIRE(bsdf_and_rest[0] == "bsdf");
+    const glm::vec3 none{0}, white{1}, reddish{3, 2, 1}, bluish{1, 2, 3};
+    require_lit_plane<Sunlight>({.sky = none, .sun = white, .disk = none, .beam = bluish, .points{reddish, bluish}}, 64,
+                                true, bsdf_and_rest.subspan(1));
+    // The BSDF meets no light without extent. No other integrator may share their light with it.
+    const Brightness of{.sky = white, .sun = reddish, .disk = 4.0f * white, .beam = bluish, .points{bluish, reddish}};
+    require_lit_plane<SunAndSky<Environment>>(of, 128, false, bsdf_and_rest.first(1));
+    require_lit_plane<SunAndSky<Environment>>(of, 64, true, bsdf_and_rest.subspan(1));
 }
 
 // Nothing is absorbed in the open: not of light from the sky, infinitely far away. A light tree's densities are those that its
