@@ -72,3 +72,8 @@ TEST_CASE("integrators agree on cornell") {
     require_agreement("cornell", {32, 32, 24, 1}, {"light", "average"});
     require_agreement("cornell", {32, 32, 16, 5}, {"light", "average"});
 }
+// Directions of the BSDF meet the sun, half a thousandth of the sky, too rarely.
+TEST_CASE("integrators agree on sundial") {
+    require_agreement("sundial", {32, 16, 8, 1}, {"bsdf", "average"});
+    require_agreement("sundial", {32, 16, 8, 5}, {"bsdf", "light", "average"});
+}
