@@ -6,8 +6,16 @@
 // Variances are sums over all lights, not estimates: that of given / probability, over the square of what all lights would give,
 // in the mean over points. CPU times are those of a selection, with what the light gives added up. Errors at equal time are
 // relative to that by power, without shadow rays and with one of a microsecond each.
+//
+// A second table has CPU times of an estimate that combines a cosine with the lights by MIS, without its rays.
 #include "../many_lights.hpp"
+#include <lumis/combine/multi_sample.hpp>
+#include <lumis/directions/cosine_hemisphere.hpp>
+#include <lumis/lights/area_light.hpp>
+#include <lumis/lights/area_light_by_solid_angle.hpp>
+#include <lumis/lights/light_set.hpp>
 #include <lumis/lights/light_tree.hpp>
+#include <lumis/lights/selected_light.hpp>
 #include <lumis/tables/alias_table.hpp>
 
 #include <cmath>
@@ -124,6 +132,55 @@ void study(std::size_t size) {
     std::fflush(stdout);
 }
 
+// Over pairs of a light and a direction, MIS asks one light; over directions, every light. A ray of the cosine's meets any light.
+void combine(std::size_t size) {
+    const ManyLights lights{size};
+    const lumis::CosineHemisphere<float> cosine;
+    const auto both = [](const auto& bsdf, const auto& light) {
+        return lumis::multi_sample(lumis::PowerHeuristic{}, lumis::take(1, bsdf), lumis::take(1, light));
+    };
+    const auto over_pairs = [&](const auto& set, auto& uniforms) {
+        const lumis::SelectedLight one{set};
+        const auto any_light = [&](const glm::vec3& w) {
+            return static_cast<std::size_t>((1 - w.z * w.z) * 0.99f * static_cast<float>(size));
+        };
+        return both(lumis::MetLight{one, cosine, any_light}, one)
+            .estimate([](const auto& x) { return std::fmax(x.direction.z, 0.0f); }, uniforms);
+    };
+    const auto over_directions = [&](const auto& set, auto& uniforms) {
+        return both(cosine, set).estimate([](const glm::vec3& w) { return std::fmax(w.z, 0.0f); }, uniforms);
+    };
+    const auto measure_both = [&](const char* selected, const auto& table_at) {
+        const auto nanoseconds = [&](std::size_t estimates, const auto& estimate) {
+            lumis::Uniforms<std::mt19937_64, float> uniforms{std::mt19937_64{1}};
+            float total = 0;
+            const double time = fastest([&] {
+                for (std::size_t i = 0; i < estimates; ++i) {
+                    const glm::vec3 position = lights.points[i % lights.points.size()].position;
+                    const auto light = [&](std::size_t k) {
+                        const glm::vec3 &lower = lights.bounds[k].lower, &upper = lights.bounds[k].upper;
+                        const lumis::Sphere<float> shape{0.5f * (lower + upper), 0.5f * (upper.x - lower.x)};
+                        return lumis::AreaLight<lumis::Sphere<float>, lumis::BySolidAngle>{shape, position};
+                    };
+                    total += estimate(lumis::LightSet{light, table_at(position)}, uniforms);
+                }
+            });
+            if (total < 0) std::puts("a negative sum");  // so that it is wanted
+            return time * 1e9 / static_cast<double>(estimates);
+        };
+        std::printf("| %zu | %s | %.0f ns | %.0f ns |\n", size, selected, nanoseconds(100'000, over_pairs),
+                    nanoseconds(1 + 100'000 / size, over_directions));
+        std::fflush(stdout);
+    };
+    const lumis::AliasTable<float> by_power{lights.intensities};
+    const lumis::LightTree<float> tree{lights.bounds};
+    measure_both(
+        "by power", [&](const glm::vec3&) -> const auto& { return by_power; });
+    measure_both("light tree", [&](const glm::vec3& position) {
+        return tree.from(position, glm::vec3{0.0f, 0.0f, 1.0f});
+    });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -133,7 +190,13 @@ int main(int argc, char** argv) {
         "1 "
         "| the same with shadow rays |");
     std::puts("| ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: |");
-    for (const double size : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
-        if (size <= largest) study(static_cast<std::size_t>(size));
-    }
+    const auto for_sizes = [&](auto work) {
+        for (const double size : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
+            if (size <= largest) work(static_cast<std::size_t>(size));
+        }
+    };
+    for_sizes(study);
+    std::puts("\n| lights | selected | an estimate over pairs, by MetLight | over directions, by LightSet |");
+    std::puts("| ---: | --- | ---: | ---: |");
+    for_sizes(combine);
 }
