@@ -7,10 +7,15 @@
 #include <CLI/CLI.hpp>
 #include <oneapi/tbb/info.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <iomanip>
+#include <limits>
+#include <optional>
 #include <set>
+#include <sstream>
 
 namespace tracer {
 
@@ -30,6 +35,15 @@ std::string check_output(const std::string& path) {
 std::string check_seconds(const std::string& text) {
     const double seconds = std::atof(text.c_str());
     return seconds > 0 && std::isfinite(seconds) ? std::string{} : text + " is no positive number";
+}
+
+std::string check_finite(const std::string& text) {
+    return std::isfinite(std::strtof(text.c_str(), nullptr)) ? std::string{} : text + " is no finite number";
+}
+
+std::string check_angle(const std::string& text) {
+    const float degrees = std::strtof(text.c_str(), nullptr);
+    return degrees > 0 && degrees < 180 ? std::string{} : text + " is no angle between 0 and 180 degrees";
 }
 
 // Numbers below 0 are refused here: -1 would count as 2^64 - 1.
@@ -70,6 +84,23 @@ void check_together(const Settings& settings, bool has_environment, bool has_mes
     require_new("--checkpoint", settings.checkpoint);
 }
 
+// As a checkpoint keeps it: "eye 1 2 3, field of view 40".
+std::string text_of(const CameraOptions& camera) {
+    std::ostringstream text;
+    text << std::setprecision(std::numeric_limits<float>::max_digits10);
+    const auto add = [&](const char* name) -> auto& {
+        return text << (text.tellp() > 0 ? ", " : "") << name;
+    };
+    const auto add_vector = [&](const char* name, const std::optional<glm::vec3>& v) {
+        if (v) add(name) << ' ' << v->x << ' ' << v->y << ' ' << v->z;
+    };
+    add_vector("eye", camera.eye);
+    add_vector("target", camera.target);
+    add_vector("up", camera.up);
+    if (camera.field_of_view) add("field of view") << ' ' << *camera.field_of_view;
+    return text.tellp() > 0 ? text.str() : "the scene's own";
+}
+
 }  // namespace
 
 Origin origin_of(const Settings& settings) {
@@ -77,6 +108,7 @@ Origin origin_of(const Settings& settings) {
             {"scene", settings.scene},
             {"env", settings.environment.empty() ? "the scene's own" : checksum_of_file(settings.environment)},
             {"mesh", settings.mesh.empty() ? "the scene's own" : checksum_of_file(settings.mesh)},
+            {"camera", text_of(settings.camera)},
             {"integrator", settings.integrator},
             {"bounces", std::to_string(settings.bounces)},
             {"sampler", settings.sampler},
@@ -96,13 +128,14 @@ std::variant<Settings, int> parse_command_line(int argc, char** argv) {
                               const char* description) {
         return app.add_option(option, name, description)->check(CLI::IsMember(names))->capture_default_str();
     };
-    const CLI::Validator is_output{check_output, ""}, is_positive{check_seconds, ""};
+    const CLI::Validator is_output{check_output, ""}, is_positive{check_seconds, ""}, is_finite{check_finite, ""},
+        is_angle{check_angle, ""};
     const CLI::Range is_size{1, 16384};
 
     const auto* has_scene = add_name("--scene", settings.scene, names_of(scenes()), "What to render");
     add_name("--integrator", settings.integrator, {integrator_names().begin(), integrator_names().end()},
              "How to estimate its light");
-    app.add_option("--bounces", settings.bounces, "Of a path: 0 shows what emits light, 1 adds direct light")
+    app.add_option("--bounces,--depth", settings.bounces, "Of a path: 0 shows what emits light, 1 adds direct light")
         ->check(CLI::Range(0, 1 << 16))
         ->capture_default_str();
     add_name("--sampler", settings.sampler, names_of(samplers), "Where the random numbers come from");
@@ -129,6 +162,16 @@ std::variant<Settings, int> parse_command_line(int argc, char** argv) {
                        "Environment map of the scenes sky and mesh, latitude-longitude: .hdr, .exr or .png");
     const auto* has_mesh =
         app.add_option("--mesh", settings.mesh, "OBJ file of the scene mesh, which it implies; y is up");
+    const auto add_vector = [&](const char* option, std::optional<glm::vec3>& v, const char* description) {
+        using Numbers = std::array<float, 3>;
+        const auto set = [&v](const Numbers& x) { v = glm::vec3{x[0], x[1], x[2]}; };
+        app.add_option_function<Numbers>(option, set, description)->type_name("X Y Z")->check(is_finite);
+    };
+    add_vector("--eye", settings.camera.eye, "Where the camera stands; the scene's own by default, as is what follows");
+    add_vector("--target", settings.camera.target, "What it looks at");
+    add_vector("--up", settings.camera.up, "Which way is up in the image");
+    app.add_option("--field-of-view,--fov", settings.camera.field_of_view, "In degrees, on the image's smaller side")
+        ->check(is_angle);
     app.add_option(
            "--output", settings.outputs,
            "A .png for the eye, a .exr for the linear values and layers (albedo, normal, variance, samples), or "

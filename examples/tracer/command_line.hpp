@@ -22,6 +22,7 @@ struct Settings {
     int width = 0, height = 0;  // of the scene itself unless asked otherwise
     std::string environment;    // file of a map; empty: the one shipped
     std::string mesh;           // OBJ file; empty: the one shipped
+    CameraOptions camera;
     std::vector<std::string> outputs{"render.png"};
     std::string error_output;  // empty: none, and so is checkpoint
     std::string checkpoint;

@@ -1,5 +1,5 @@
-// Renders one scene with one integrator. What can be known to be wrong is found before rendering. Exit codes: 0, 1 for files
-// and memory, 2 for a wrong command, 128 + the signal's number after an interruption.
+// Renders one scene with one integrator. What can be known to be wrong is found before rendering. Exit codes: 0, 1 for files,
+// memory and a camera that looks nowhere, 2 for a wrong command, 128 + the signal's number after an interruption.
 // The root does all of this if there is MPI, and the other ranks render passes for it.
 #include "command_line.hpp"
 #include "images/image.hpp"
@@ -150,6 +150,9 @@ void write(const Settings& settings, const Film& film, std::string wrong) {
             wrong += (wrong.empty() ? "" : "; ") + std::string{error.what()};
         }
     };
+    if (std::ranges::all_of(film.pixels, [](const Pixel& pixel) { return pixel.sum == glm::dvec3{0}; })) {
+        std::cerr << "tracer: the image is black, for no path has found light: --eye and --target move the camera\n";
+    }
     for (const std::string& output : settings.outputs) attempt(output, film.image(), film.layers());
     if (!settings.error_output.empty()) attempt(settings.error_output, film.standard_error(), {});
     if (!wrong.empty()) throw FileError(wrong);
@@ -168,7 +171,7 @@ struct Work {
           height{settings.height > 0 ? settings.height : scene.height} {}
 
     [[nodiscard]] std::unique_ptr<Renderer> make_renderer(const Settings& settings) const {
-        return scene.make({width, height, settings.environment, settings.mesh});
+        return scene.make({width, height, settings.environment, settings.mesh, settings.camera});
     }
 };
 
@@ -183,6 +186,8 @@ int run(const Ranks& ranks, const Settings& settings) {
         Saving saving{settings};
         Checkpoint rendering = saving.begin(settings, width, height);
         const auto renderer = work.make_renderer(settings);
+        for (const std::string& note : renderer->notes())
+            std::cerr << "tracer: " << settings.mesh + ": " + note << '\n';
         Interruption::watch();
         Passes passes{ranks, *renderer, settings, rendering};
         render(passes, settings, rendering, saving);

@@ -1,8 +1,11 @@
 // How a scene is rendered, apart from the integrator: what a command line can ask of every renderer.
 #pragma once
 
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace tracer {
@@ -39,6 +42,12 @@ struct RenderOptions {
     int bounces = 5;  // of a path: 0 shows emission alone, 1 direct light
     Sampler sampler = Sampler::Sobol;
     Filter filter = Filter::Box;
+};
+
+// What is asked of a camera, in the scene's coordinates; the scene's own in all else.
+struct CameraOptions {
+    std::optional<glm::vec3> eye{}, target{}, up{};
+    std::optional<float> field_of_view{};  // in degrees, on the smaller axis
 };
 
 }  // namespace tracer

@@ -21,6 +21,9 @@ class Renderer {
     // What samples this scene: a line for each kind of material and each group of lights, read off their types.
     [[nodiscard]] virtual std::vector<std::string> strategies() const = 0;
 
+    // What the user's files ask for and do not get, a line each.
+    [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
+
     // Adds a pass to every pixel; whole packets (paths/packet.hpp) take the least time. What is added depends on the seed and
     // the samples alone, never on the threads. Returns the CPU seconds that all threads together spent.
     virtual double add_pass(Film& film, std::string_view integrator, const RenderOptions& options,
@@ -31,6 +34,7 @@ struct SceneOptions {
     int width{}, height{};    // in pixels
     std::string environment;  // file of an environment map; empty: the one shipped
     std::string mesh{};       // OBJ file of the scene mesh; empty: the one shipped
+    CameraOptions camera{};
 };
 
 struct SceneEntry {

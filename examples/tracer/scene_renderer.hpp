@@ -24,7 +24,9 @@ template <Scene S, lumis::Real R = Packet>
 class SceneRenderer final : public Renderer {
   public:
     SceneRenderer(S scene, const SceneOptions& options, const Camera& camera)
-        : scene_{std::move(scene)}, width_{options.width}, view_{camera, options.width, options.height} {}
+        : scene_{std::move(scene)},
+          width_{options.width},
+          view_{asked(camera, options.camera), options.width, options.height} {}
 
     [[nodiscard]] std::vector<std::string> strategies() const override {
         std::vector<std::string> names = S::MaterialTable::strategies();
@@ -32,6 +34,11 @@ class SceneRenderer final : public Renderer {
             names.push_back("light: " + type_name<typename std::remove_cvref_t<decltype(group)>::Strategy>());
         });
         return names;
+    }
+
+    [[nodiscard]] std::vector<std::string> notes() const override {
+        if constexpr (requires { scene_.notes(); }) return scene_.notes();
+        return {};
     }
 
     double add_pass(Film& film, std::string_view integrator, const RenderOptions& options, const SampleRange& samples,

@@ -3,6 +3,7 @@
 
 #include "geometry/geometry.hpp"
 #include "paths/packet.hpp"
+#include "render_options.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace tracer {
 
@@ -18,12 +20,29 @@ struct Camera {
     float field_of_view;  // in degrees, on the smaller axis
 };
 
+// A scene's camera, changed as the options ask. Throws if it would look nowhere.
+[[nodiscard]] inline Camera asked(const Camera& own, const CameraOptions& options) {
+    const Camera camera{options.eye.value_or(own.position), options.target.value_or(own.target),
+                        options.up.value_or(own.up), options.field_of_view.value_or(own.field_of_view)};
+    const float distance = glm::length(camera.target - camera.position);
+    if (!(distance > 0 && std::isfinite(distance))) {
+        throw std::invalid_argument("the camera looks nowhere: its eye and its target are too near, or too far apart");
+    }
+    return camera;
+}
+
 // An image of width x height pixels, as the camera sees it.
 class View {
   public:
     View(const Camera& camera, int width, int height) : position_{camera.position} {
         const glm::vec3 forward = glm::normalize(camera.target - camera.position);
-        const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
+        glm::vec3 sideways = glm::cross(forward, camera.up);
+        if (!(glm::dot(sideways, sideways) > 1e-12f * glm::dot(camera.up, camera.up))) {
+            // It looks along up: x is to the right, as on a map.
+            const glm::vec3 axis = std::abs(forward.x) < 0.9f ? glm::vec3{1, 0, 0} : glm::vec3{0, 0, -1};
+            sideways = axis - glm::dot(axis, forward) * forward;
+        }
+        const glm::vec3 right = glm::normalize(sideways);
         const glm::vec3 down = glm::cross(forward, right);
         const float pixel =
             2 * std::tan(glm::radians(camera.field_of_view) / 2) / static_cast<float>(std::min(width, height));
