@@ -2,11 +2,15 @@
 #include "renderer.hpp"
 
 #include "catch.hpp"
+#include "folder.hpp"
+#include "paths/camera.hpp"
 #include <lumis/statistics/running_moments.hpp>
 
 #include <oneapi/tbb/global_control.h>
 
 #include <cmath>
+#include <fstream>
+#include <iomanip>
 #include <vector>
 
 namespace {
@@ -104,4 +108,33 @@ TEST_CASE("scenes name what they sample, and have nothing else") {
     CHECK(strategies("veach") == std::vector<std::string>{"Diffuse: CosineHemisphere",
                                                           "Coated: Mixture<CosineHemisphere, GgxReflection>",
                                                           "light: AreaLight<Sphere, BySolidAngle>"});
+}
+
+TEST_CASE("a camera is the scene's own but for what is asked; straight down it sees x to the right") {
+    const Camera own{{0, 1, 5}, {0, 1, 0}, {0, 1, 0}, 90};
+    CHECK(View{asked(own, {}), 8, 8}.ray(4.0f, 4.0f).direction == glm::vec3{0, 0, -1});
+    const View down{asked(own, {.eye = glm::vec3{0, 9, 0}}), 8, 8};
+    const float half = std::sqrt(0.5f);
+    CHECK(glm::length(down.ray(4.0f, 4.0f).direction - glm::vec3{0, -1, 0}) <= 1e-6f);
+    CHECK(glm::length(down.ray(8.0f, 4.0f).direction - glm::vec3{half, -half, 0}) <= 1e-6f);
+    CHECK(glm::length(down.ray(4.0f, 0.0f).direction - glm::vec3{0, -half, -half}) <= 1e-6f);
+    CHECK_THROWS(asked(own, {.eye = own.target}));
+    CHECK_THROWS(asked(own, {.target = glm::vec3{3e38f}}));
+}
+
+TEST_CASE("a mesh looks the same whatever its unit and its origin") {
+    const Folder folder;
+    const auto image = [&](float size, const glm::vec3& at) {
+        std::ofstream obj{folder.file("a.obj")};
+        for (const glm::vec3 corner : {glm::vec3{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {0, 0, 1}}) {
+            const glm::vec3 v = at + size * corner;
+            obj << std::setprecision(9) << "v " << v.x << ' ' << v.y << ' ' << v.z << '\n';
+        }
+        obj << "f 1 2 3\nf 2 4 1\n" << std::flush;
+        const CameraOptions camera{.eye = at + size * glm::vec3{1, 2, 4}, .target = at};
+        return render(*find_scene("mesh")->make({24, 16, {}, folder.file("a.obj"), camera}), {}, 1, 2).pixels;
+    };
+    const auto expected = image(1, {0, 0, -0.5f});
+    CHECK((image(0x1p-6f, {0, 0, -0x1p-7f}) == expected));
+    CHECK((image(1, {65536, -32768, 1024}) == expected));
 }

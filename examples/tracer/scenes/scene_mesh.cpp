@@ -10,7 +10,11 @@ namespace tracer {
 std::unique_ptr<Renderer> make_mesh(const SceneOptions& options) {
     MeshScene scene{options};
     const Camera camera = scene.camera();
-    return std::make_unique<SceneRenderer<MeshScene>>(std::move(scene), options, camera);
+    SceneOptions placed = options;
+    for (auto* point : {&placed.camera.eye, &placed.camera.target}) {
+        if (*point) *point = scene.placement()(**point);
+    }
+    return std::make_unique<SceneRenderer<MeshScene>>(std::move(scene), placed, camera);
 }
 
 }  // namespace tracer

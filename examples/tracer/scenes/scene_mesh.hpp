@@ -8,7 +8,6 @@
 #include "renderer.hpp"
 #include "scenes/scene_parts.hpp"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -27,6 +26,8 @@ class MeshScene : public SceneParts<Materials<Diffuse<float>, Coated<float>>,
         : MeshScene{read_mesh(options.mesh.empty() ? LUMIS_EXAMPLES_DATA "/room.obj" : options.mesh), options} {}
 
     [[nodiscard]] const Camera& camera() const { return camera_; }
+    [[nodiscard]] const Placement& placement() const { return placement_; }
+    [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
   private:
     using Light = Emitter<lumis::Triangle<float>>;
@@ -38,7 +39,9 @@ class MeshScene : public SceneParts<Materials<Diffuse<float>, Coated<float>>,
     MeshScene(const Mesh& mesh, const std::vector<Light>& lights, const std::string& environment)
         : SceneParts{LightTable{ManyLights<lumis::Triangle, lumis::BySolidAngle>{lights},
                                 Environment{sky(environment, lights.empty())}}},
-          camera_{camera_of(mesh)} {
+          camera_{camera_of(mesh)},
+          placement_{mesh.placement},
+          notes_{mesh.notes} {
         std::vector<Surface> of_material, surfaces;
         for (const MeshMaterial& m : mesh.materials) {
             of_material.push_back(m.alpha > 0 ? materials_.add(Coated<float>{m.albedo, m.alpha, m.index})
@@ -70,18 +73,15 @@ class MeshScene : public SceneParts<Materials<Diffuse<float>, Coated<float>>,
 
     // Looks from the front, a little from the right and above, from so far away that all of it is seen. y points up.
     [[nodiscard]] static Camera camera_of(const Mesh& mesh) {
-        glm::vec3 lower = mesh.triangles.front().a, upper = lower;
-        for (const auto& [a, b, c] : mesh.triangles) {
-            lower = glm::min(lower, glm::min(a, glm::min(b, c)));
-            upper = glm::max(upper, glm::max(a, glm::max(b, c)));
-        }
         constexpr float field_of_view = 38;
-        const glm::vec3 center = 0.5f * (lower + upper);
-        const float distance = 0.5f * glm::length(upper - lower) / std::sin(glm::radians(field_of_view) / 2);
+        const glm::vec3 center = 0.5f * (mesh.lower + mesh.upper);
+        const float distance = 0.5f * glm::length(mesh.upper - mesh.lower) / std::sin(glm::radians(field_of_view) / 2);
         return {center + distance * glm::normalize(glm::vec3{0.35f, 0.25f, 1}), center, {0, 1, 0}, field_of_view};
     }
 
     Camera camera_;
+    Placement placement_;
+    std::vector<std::string> notes_;
 };
 
 }  // namespace tracer
