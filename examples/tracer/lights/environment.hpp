@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace tracer {
@@ -73,37 +74,36 @@ class Environment {
     }
 
   private:
-    // Texel centres lie at half integers; u wraps around, v is clamped.
+    // Texel centres lie at half integers; u wraps around, v is clamped. Addresses are of all lanes at once, texels of each alone.
     template <lumis::Real R>
     [[nodiscard]] LUMIS_INLINE Vector<R> radiance_at(const glm::vec<2, R>& uv) const {
-        const R x = uv.x * static_cast<float>(width_), y = uv.y * static_cast<float>(height_);
+        using Four = lumis::Lanes<float, 4>;
+        const auto [column, to_right] = split<R>(uv.x * static_cast<float>(width_) + 0.5f);
+        const auto [row, to_lower] = split<R>(uv.y * static_cast<float>(height_) + 0.5f);
+        Indices<R> texels;
+        for (std::size_t i = 0; i < lanes<R>; ++i) texels[i] = row[i] * stride_ + column[i];
         std::array<std::array<float, 4>, lanes<R>> looked_up;
-        for (std::size_t i = 0; i < lanes<R>; ++i) looked_up[i] = interpolated(lane(x, i), lane(y, i));
+        for (std::size_t i = 0; i < lanes<R>; ++i) {
+            const glm::vec4* const texel = &texels_[texels[i]];
+            const auto at = [&](std::size_t k) { return Four::load(&texel[k].x); };
+            const Four above = at(0) + lane(to_right, i) * (at(1) - at(0));
+            const Four below = at(stride_) + lane(to_right, i) * (at(stride_ + 1) - at(stride_));
+            (above + lane(to_lower, i) * (below - above)).store(looked_up[i].data());
+        }
         return {of_lanes<R>([&](auto i) { return looked_up[i][0]; }),
                 of_lanes<R>([&](auto i) { return looked_up[i][1]; }),
                 of_lanes<R>([&](auto i) { return looked_up[i][2]; })};
     }
 
-    [[nodiscard]] LUMIS_INLINE std::array<float, 4> interpolated(float x, float y) const {
-        using Four = lumis::Lanes<float, 4>;
-        // Numbers are positive, so that cutting off digits rounds down.
-        const int right = static_cast<int>(x + 0.5f), lower = static_cast<int>(y + 0.5f);
-        const float to_right = x + 0.5f - static_cast<float>(right), to_lower = y + 0.5f - static_cast<float>(lower);
-        const int left = right > 0 ? right - 1 : width_ - 1, upper = std::max(lower - 1, 0);
-        const int wrapped = right < width_ ? right : 0, last = std::min(lower, height_ - 1);
-        const auto texel = [&](int column, int row) {
-            return Four::load(&texels_[static_cast<std::size_t>(row * width_ + column)].x);
-        };
-        const Four above = texel(left, upper) + to_right * (texel(wrapped, upper) - texel(left, upper));
-        const Four below = texel(left, last) + to_right * (texel(wrapped, last) - texel(left, last));
-        std::array<float, 4> result;
-        (above + to_lower * (below - above)).store(result.data());
-        return result;
-    }
-
+    // With the texels beyond each edge that are looked up there.
     static std::vector<glm::vec4> padded(const Image& map) {
         std::vector<glm::vec4> result;
-        for (const glm::vec3& pixel : map.pixels) result.emplace_back(pixel, 0.0f);
+        for (int y = -1; y <= map.height; ++y) {
+            for (int x = -1; x <= map.width; ++x) {
+                const int column = (x + map.width) % map.width, row = std::clamp(y, 0, map.height - 1);
+                result.emplace_back(map.pixels[static_cast<std::size_t>(row * map.width + column)], 0.0f);
+            }
+        }
         return result;
     }
     static std::vector<float> luminances(const Image& map) {
@@ -113,7 +113,8 @@ class Environment {
     }
 
     int width_, height_;
-    std::vector<glm::vec4> texels_;  // four numbers each, to be loaded at once
+    std::uint32_t stride_ = static_cast<std::uint32_t>(width_) + 2;  // of texels_
+    std::vector<glm::vec4> texels_;                                  // four numbers each, to be loaded at once
     Strategy alone_, beside_bsdf_;
 };
 

@@ -89,6 +89,26 @@ template <lumis::Real R>
     }
 }
 
+// Positive numbers, split at the point.
+template <lumis::Real R>
+struct Split {
+    Indices<R> whole;
+    R fraction;
+};
+template <lumis::Real R>
+[[nodiscard]] LUMIS_INLINE inline Split<R> split(const R& x) {
+    std::array<float, lanes<R>> numbers;
+    std::memcpy(numbers.data(), &x, sizeof numbers);
+    Split<R> result;
+    for (std::size_t i = 0; i < lanes<R>; ++i) {
+        const auto whole = static_cast<std::int32_t>(numbers[i]);
+        result.whole[i] = static_cast<std::uint32_t>(whole);
+        numbers[i] -= static_cast<float>(whole);
+    }
+    std::memcpy(static_cast<void*>(&result.fraction), numbers.data(), sizeof numbers);
+    return result;
+}
+
 // Entries where the mask holds; in other lanes one of those.
 template <lumis::Real R>
 [[nodiscard]] LUMIS_INLINE inline Indices<R> filled(const Indices<R>& entries, const Mask<R>& mask) {
