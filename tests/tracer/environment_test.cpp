@@ -32,6 +32,17 @@ TEST_CASE("radiance at a texel's centre is the texel's") {
     }
 }
 
+TEST_CASE("beyond its edges a map goes on: around the horizon from the other side, at the poles as the last row") {
+    const Environment environment{
+        {4, 2, {{1, 0, 0}, {0, 0, 0}, {0, 0, 0}, {3, 0, 0}, {5, 0, 0}, {0, 0, 0}, {0, 0, 0}, {9, 0, 0}}}};
+    const auto at_seam = [&](float cosine) {
+        return environment.radiance(glm::vec3{-std::sqrt(1 - cosine * cosine), cosine, 0.0f}).r;
+    };
+    CHECK(std::abs(at_seam(0.9f) - 2) <= 1e-5f);
+    CHECK(std::abs(at_seam(0.0f) - 4.5f) <= 1e-5f);
+    CHECK(std::abs(at_seam(-0.9f) - 7) <= 1e-5f);
+}
+
 TEST_CASE("where there is radiance there is density") {
     const Environment environment{checkered(12, 6)};
     std::mt19937 engine{3};
