@@ -46,3 +46,8 @@ expect(diffuse_room  FALSE lumis::SphereView)
 expect(diffuse_room  FALSE lumis::Mixture)
 expect(diffuse_room  FALSE lumis::PerfectReflection)
 expect(diffuse_room  FALSE "tracer::(Coated|Metal|Mirror|Compensated|Blend|RoughGlass|SmoothGlass|Environment)")
+
+# These have few lights, or a sky: no light tree chooses.
+foreach(scene IN ITEMS scene_sky scene_veach scene_cornell diffuse_room)
+    expect(${scene} FALSE "(ManyLights|LightTree)")
+endforeach()
