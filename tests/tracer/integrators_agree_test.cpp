@@ -58,13 +58,23 @@ std::vector<double> weights(const View& view, int first_column) {
     return result;
 }
 
-// The weighted means of independent images, each of so many samples a pixel.
-lumis::RunningMoments<> moments(const View& view, const std::vector<double>& weights, std::string_view integrator,
-                                int samples, std::uint64_t first_seed) {
-    lumis::RunningMoments<> result;
+constexpr int block = 8;  // pixels along each side
+
+// The weighted sums of independent images, each of so many samples a pixel: those of blocks, and last of all that of the whole.
+std::vector<lumis::RunningMoments<>> moments(const View& view, const std::vector<double>& weights,
+                                             std::string_view integrator, int samples, std::uint64_t first_seed) {
+    const int across = view.width / block;
+    std::vector<lumis::RunningMoments<>> result(static_cast<std::size_t>(across * (view.height / block) + 1));
     for (std::uint64_t i = 0; i < images; ++i) {
         const auto image = view.luminances(integrator, samples, first_seed + i);
-        result.add(std::inner_product(image.begin(), image.end(), weights.begin(), 0.0));
+        std::vector<double> sums(result.size());
+        for (int k = 0; k < view.width * view.height; ++k) {
+            const auto pixel = static_cast<std::size_t>(k);
+            const int at = k / view.width / block * across + k % view.width / block;
+            sums[static_cast<std::size_t>(at)] += weights[pixel] * image[pixel];
+            sums.back() += weights[pixel] * image[pixel];
+        }
+        for (std::size_t part = 0; part < sums.size(); ++part) result[part].add(sums[part]);
     }
     return result;
 }
@@ -82,7 +92,7 @@ struct Case {
     int first_column = 0;  // where light and average are compared
 };
 
-constexpr std::size_t all_cases = 15, others = 6;
+constexpr std::size_t all_cases = 15, others = 6, most_parts = 19;
 
 void require_agreement(const Case& one) {
     INFO(one.scene << ", " << one.bounces << " bounces");
@@ -93,8 +103,8 @@ void require_agreement(const Case& one) {
         find_scene(one.scene)->make({one.width, one.height, is_sky ? folder.file("sky.exr") : std::string{}});
     const View view{*renderer, one.width, one.height, one.bounces};
 
-    // False alarms: 1e-3 over all scenes, depths and integrators (Sidak), by Student's distribution.
-    const lumis::testing::Significance significance{1e-3, all_cases * others};
+    // False alarms: 1e-3 over all scenes, depths, integrators and blocks (Sidak), by Student's distribution.
+    const lumis::testing::Significance significance{1e-3, all_cases * others * most_parts};
     const double limit =
         quantile(complement(boost::math::students_t_distribution<double>{images - 1}, significance.threshold() / 2));
 
@@ -110,11 +120,18 @@ void require_agreement(const Case& one) {
         const bool finds_mirrored_light_rarely = integrator == "light" || integrator == "average";
         const auto& power = finds_mirrored_light_rarely ? of_power_on_the_right : of_power;
         const auto other = moments(view, finds_mirrored_light_rarely ? on_the_right : everywhere, integrator, 16, seed);
-        const double error = std::hypot(other.standard_error(), power.standard_error());
-        INFO(integrator << ": " << other.mean() << ", not " << power.mean() << "; +- " << error);
-        CHECK(std::abs(other.mean() - power.mean()) <= limit * error);
-        CHECK(other.rejected() + power.rejected() == 0);
+        // Blocks are few pixels: the error of a technique alone is not normal there.
+        const std::size_t first = is_noisy || finds_mirrored_light_rarely ? other.size() - 1 : 0;
+        double error = 0;
+        for (std::size_t part = first; part < other.size(); ++part) {
+            const auto &a = other[part], &b = power[part];
+            error = std::hypot(a.standard_error(), b.standard_error());
+            INFO(integrator << ", block " << part << ": " << a.mean() << ", not " << b.mean() << "; +- " << error);
+            CHECK(std::abs(a.mean() - b.mean()) <= limit * error + 1e-6 * b.mean());
+            CHECK(a.rejected() + b.rejected() == 0);
+        }
         const Visible& seen = one.bias;
+        INFO(integrator);
         CHECK(limit * error <= (integrator == "light" ? seen.light : is_noisy ? seen.noisy : seen.combined));
     }
 }
@@ -127,14 +144,14 @@ TEST_CASE("integrators agree") {
         {"veach", 32, 24, 1, {0.015, 0.06, 0.6}},
         {"veach", 32, 24, 5, {0.015, 0.06, 0.6}},
         {"veach-metal", 32, 24, 5, {0.02, 0.1, 0.5}},
-        {"sky", 48, 24, 1, {0.02, 0.02, 0.03}, 32},
+        {"sky", 48, 24, 1, {0.02, 0.02, 0.04}, 32},
         {"sky", 48, 24, 5, {0.015, 0.03, 0.05}, 32},
-        {"cornell", 32, 24, 1, {0.015, 0.015, 0.3}},
+        {"cornell", 32, 24, 1, {0.02, 0.02, 0.3}},
         {"cornell", 32, 24, 5, {0.04, 0.03, 0.3}},
         {"box", 16, 16, 1, {0.01, 0.015, 0.01}},
         {"box", 16, 16, 5, {0.015, 0.015, 0.01}},
         {"furnace", 32, 16, 5, {0.05, 0.05, 0.05}},
-        {"slab", 16, 16, 5, {0.005, 0.005, 0.005}},
+        {"slab", 16, 16, 5, {0.01, 0.01, 0.01}},
         {"glass", 32, 24, 1, {0.03, 0.03, 0.07}},
         {"glass", 32, 24, 5, {0.03, 0.02, 0.07}},
         {"many-lights", 24, 16, 1, {0.02, 0.02, 0.25}},
