@@ -40,7 +40,7 @@ BlockMoments host_moments(const host::Scene& scene, int samples, int bounces) {
 // The host's sky for the tracer: each texel all of one radiance.
 class SteppedSky {
   public:
-    static constexpr bool is_background = true;
+    static constexpr bool is_background = true, is_delta = false;
     static constexpr std::size_t samples = 1;
     using Strategy = lumis::EnvironmentMap<float>;
 
