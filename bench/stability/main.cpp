@@ -3,8 +3,10 @@
 #include "row.hpp"
 
 #include <CLI/CLI.hpp>
+#include <oneapi/tbb/parallel_pipeline.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <ctime>
 #include <exception>
 #include <filesystem>
@@ -288,24 +290,62 @@ std::string left_out_by(const Measured& measured) {
     return what;
 }
 
-Row row_of(const Case& what, const char* scalar, const InScalar& in_scalar, Effort effort) {
-    const std::clock_t start = std::clock();
-    const Measured measured = in_scalar.run(effort);
-    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    return {what.kernel, what.swept + left_out_by(measured), scalar, what.reference, in_scalar.error_limit, measured,
-            seconds};
-}
+// A row that is still to be measured.
+struct Task {
+    const Case& what;
+    const char* scalar;
+    const InScalar& in_scalar;
+};
 
-std::vector<Row> run_cases(Effort effort, const std::string& only, bool show) {
-    std::vector<Row> rows;
-    if (show) print_heading();
+std::vector<Task> tasks(const std::string& only) {
+    std::vector<Task> result;
     for (const Case& what : cases) {
         if (std::string{what.kernel}.find(only) == std::string::npos) continue;
-        for (const auto& [scalar, in_scalar] : {std::pair{"float", what.in_float}, {"double", what.in_double}}) {
-            rows.push_back(row_of(what, scalar, in_scalar, effort));
-            if (show) print(rows.back());
-        }
+        result.push_back({what, "float", what.in_float});
+        result.push_back({what, "double", what.in_double});
     }
+    return result;
+}
+
+// CPU time of the calling thread.
+double thread_seconds() {
+    std::timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+Row measure(const Task& task, Effort effort) {
+    const double start = thread_seconds();
+    const Measured measured = task.in_scalar.run(effort);
+    return {task.what.kernel,
+            task.what.swept + left_out_by(measured),
+            task.scalar,
+            task.what.reference,
+            task.in_scalar.error_limit,
+            measured,
+            thread_seconds() - start};
+}
+
+// Rows are measured on all cores, and shown in order.
+std::vector<Row> run_cases(Effort effort, const std::string& only, bool show) {
+    using oneapi::tbb::filter_mode, oneapi::tbb::make_filter;
+    const std::vector<Task> all = tasks(only);
+    std::vector<Row> rows;
+    if (show) print_heading();
+    std::size_t next = 0;
+    const auto take = [&](oneapi::tbb::flow_control& control) {
+        if (next == all.size()) control.stop();
+        return next++;
+    };
+    const auto measure_one = [&](std::size_t i) { return measure(all[i], effort); };
+    const auto add = [&](const Row& row) {
+        rows.push_back(row);
+        if (show) print(row);
+    };
+    oneapi::tbb::parallel_pipeline(all.size() + 1,
+                                   make_filter<void, std::size_t>(filter_mode::serial_in_order, take) &
+                                       make_filter<std::size_t, Row>(filter_mode::parallel, measure_one) &
+                                       make_filter<Row, void>(filter_mode::serial_in_order, add));
     return rows;
 }
 
