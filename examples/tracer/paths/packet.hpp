@@ -1,5 +1,6 @@
-// Samples of a pixel are traced in packets, one in each lane: eight at a time, or sixteen where the machine has vectors for them. The tracer's kernels are written for a lumis::Real R: a
-// Packet, or a float for a single sample. What lanes need beyond arithmetic is here: their masks, and tables' entries.
+// Samples of a pixel are traced in packets, one in each lane: eight at a time, or sixteen where the machine has vectors for them.
+// The tracer's kernels are written for a lumis::Real R: a Packet, or a float for a single sample. What lanes need beyond
+// arithmetic is here: their masks, and tables' entries.
 #pragma once
 
 #include <lumis/core/lanes.hpp>
