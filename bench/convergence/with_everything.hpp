@@ -20,7 +20,7 @@ namespace tracer {
 template <class Group>
 class Absent {
   public:
-    static constexpr bool is_background = Group::is_background;
+    static constexpr bool is_background = Group::is_background, is_delta = Group::is_delta;
     static constexpr std::size_t samples = Group::samples;
     using Strategy = typename Group::Strategy;
 
