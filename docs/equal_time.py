@@ -20,7 +20,8 @@ ROOT = Path(__file__).resolve().parent.parent
 INTEGRATORS = {"bsdf": "BSDF sampling alone", "light": "light sampling alone", "power": "both, power heuristic"}
 WIDTH, HEIGHT = 432, 324  # of each picture; at its full size, for a smaller copy would hide the noise
 STRIP, GAP = 26, 6
-PILOT = 16  # samples a pixel of the short run
+PACKET = 16  # samples a pixel that the tracer takes at once
+PILOT = 4 * PACKET  # samples a pixel of the short run
 
 
 def render(tracer, integrator, samples, output):
@@ -45,7 +46,7 @@ def main():
         for column, (integrator, words) in enumerate(INTEGRATORS.items()):
             output = Path(folder) / "image.png"
             cost = render(arguments.tracer, integrator, PILOT, output) / PILOT
-            samples = max(1, round(arguments.seconds / cost))
+            samples = PACKET * max(1, round(arguments.seconds / cost / PACKET))
             seconds = render(arguments.tracer, integrator, samples, output)
             print(f"{integrator}: {samples} samples a pixel in {seconds:.2f} s of CPU time")
             x = column * (WIDTH + GAP)

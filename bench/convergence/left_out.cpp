@@ -2,6 +2,7 @@
 
 #include "paths/packet.hpp"
 #include "render_study.hpp"
+#include "report_scenes.hpp"
 #include <lumis/statistics/error_metrics.hpp>
 
 #if __has_include(<valgrind/callgrind.h>)
@@ -68,7 +69,7 @@ tracer::RenderOptions counted_options(const std::string& scene) {
 std::unique_ptr<tracer::Renderer> make(const std::string& scene, const std::string& variant,
                                        const tracer::SceneOptions& options) {
     if (variant == "everything") return make_with_everything(scene, options);
-    return tracer::find_scene(scene)->make(options);
+    return report_scene(scene).make(options);
 }
 
 }  // namespace

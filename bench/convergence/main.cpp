@@ -3,7 +3,7 @@
 #include "page.hpp"
 #include "problem_study.hpp"
 #include "render_study.hpp"
-#include "renderer.hpp"
+#include "report_scenes.hpp"
 #include "results.hpp"
 #include "stiff_study.hpp"
 
@@ -12,7 +12,6 @@
 #include <oneapi/tbb/info.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -21,6 +20,7 @@
 #include <iostream>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 #include <tuple>
 
 namespace {
@@ -43,21 +43,19 @@ class ProgressLine {
 
 constexpr const char* stiff_name = "stiff";
 
-// Scenes that the demo has time for, and those that --all adds. The others have known answers, which tests look at, or show what
-// these show.
-constexpr std::array<std::string_view, 3> demo_scenes{"veach", "sky", "cornell"};
-constexpr std::array<std::string_view, 2> more_scenes{"glass", "many-lights"};
-
 std::vector<std::string> all_problems() {
     std::vector<std::string> names;
-    for (const tracer::SceneEntry& scene : tracer::scenes()) names.emplace_back(scene.name);
+    for (const ReportScene& scene : report_scenes()) names.emplace_back(scene.entry.name);
     for (const Entry& entry : registered_problems()) names.push_back(entry.name);
     names.emplace_back(stiff_name);
+    std::ranges::sort(names);
+    const auto twice = std::ranges::adjacent_find(names);
+    if (twice != names.end()) throw std::logic_error("two problems are called " + *twice);
     return names;
 }
 
 void list() {
-    for (const tracer::SceneEntry& scene : tracer::scenes()) std::cout << scene.name << ": " << scene.title << '\n';
+    for (const auto& [scene, _] : report_scenes()) std::cout << scene.name << ": " << scene.title << '\n';
     for (const Entry& entry : registered_problems()) std::cout << entry.name << ": " << entry.make().title << '\n';
     std::cout << stiff_name << ": Near-mirror surfaces under lights of all sizes\n";
 }
@@ -86,10 +84,9 @@ void run(const Settings& settings) {
         std::fflush(stdout);
         studies.push_back(std::move(study));
     };
-    for (const tracer::SceneEntry& scene : tracer::scenes()) {
+    for (const auto& [scene, is_in_demo] : report_scenes()) {
         const std::string name{scene.name};
-        const bool is_meant = !settings.problems.empty() || std::ranges::count(demo_scenes, name) > 0 ||
-                              (settings.all_scenes && std::ranges::count(more_scenes, name) > 0);
+        const bool is_meant = is_in_demo || settings.all_scenes || !settings.problems.empty();
         if (asked_for(name) && is_meant) finish(render_study(name, settings.seeds, render, std::ref(progress)));
     }
     for (const Entry& entry : registered_problems()) {

@@ -6,7 +6,7 @@
 #include "left_out.hpp"
 #include "paths/packet.hpp"
 #include "reference_image.hpp"
-#include "renderer.hpp"
+#include "report_scenes.hpp"
 #include <lumis/statistics/error_metrics.hpp>
 
 #include <algorithm>
@@ -127,15 +127,15 @@ tracer::RenderOptions render_options(std::string_view scene) {
 
 Study render_study(const std::string& scene_name, const std::vector<std::uint64_t>& seeds,
                    const RenderSettings& settings, const Progress& progress) {
-    const tracer::SceneEntry& scene = *tracer::find_scene(scene_name);
+    const tracer::SceneEntry& scene = report_scene(scene_name);
     Study study;
     study.name = scene.name;
     study.group = "scenes";
     study.title = scene.title;
     study.description = scene.description;
     study.seeds = seeds;
-    study.height = scene.height * settings.width / tracer::widest_scene();
-    study.width = scene.width * settings.width / tracer::widest_scene();
+    study.height = scene.height * settings.width / widest_scene();
+    study.width = scene.width * settings.width / widest_scene();
     const tracer::SceneOptions options{study.width, study.height, settings.environment};
     const auto renderer = scene.make(options);
     study.strategies = renderer->strategies();

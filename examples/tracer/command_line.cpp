@@ -1,7 +1,7 @@
 #include "command_line.hpp"
 
 #include "images/image.hpp"
-#include "renderer.hpp"
+#include "scenes/scenes.hpp"
 #include <lumis/version.hpp>
 
 #include <CLI/CLI.hpp>
@@ -84,7 +84,7 @@ void check_together(const Settings& settings, bool has_environment, bool has_mes
     require_new("--checkpoint", settings.checkpoint);
 }
 
-// As a checkpoint keeps it: "eye 1 2 3, field of view 40".
+// A camera as a checkpoint keeps it: "eye 1 2 3, field of view 40".
 std::string text_of(const CameraOptions& camera) {
     std::ostringstream text;
     text << std::setprecision(std::numeric_limits<float>::max_digits10);

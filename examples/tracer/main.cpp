@@ -8,6 +8,7 @@
 #include "progress.hpp"
 #include "ranks.hpp"
 #include "renderer.hpp"
+#include "scenes/scenes.hpp"
 
 #include <oneapi/tbb/global_control.h>
 

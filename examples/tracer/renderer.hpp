@@ -1,4 +1,4 @@
-// What the command line, the report and the tests see of the tracer: scenes by name, rendered pass by pass.
+// What the command line, the report and the tests see of the tracer: scenes, rendered pass by pass.
 #pragma once
 
 #include "film/film.hpp"
@@ -43,14 +43,6 @@ struct SceneEntry {
     bool has_sky;       // shows SceneOptions::environment
     std::unique_ptr<Renderer> (*make)(const SceneOptions&);
 };
-
-[[nodiscard]] std::span<const SceneEntry> scenes();
-
-// nullptr if there is none of that name.
-[[nodiscard]] const SceneEntry* find_scene(std::string_view name);
-
-// In pixels, of all the scenes' own widths.
-[[nodiscard]] int widest_scene();
 
 // All integrators, in the order in which they are best told.
 [[nodiscard]] std::span<const std::string_view> integrator_names();

@@ -3,7 +3,7 @@
 #include "fireflies.hpp"
 
 #include "catch.hpp"
-#include "renderer.hpp"
+#include "scenes/scenes.hpp"
 
 using namespace convergence;
 

@@ -7,6 +7,7 @@
 #include "scenes/scene_cornell.hpp"
 #include "scenes/scene_furnace.hpp"
 #include "scenes/scene_slab.hpp"
+#include "scenes/scenes.hpp"
 #include <lumis/testing/result.hpp>
 
 #include <boost/math/distributions/normal.hpp>

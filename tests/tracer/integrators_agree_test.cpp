@@ -3,7 +3,7 @@
 #include "catch.hpp"
 #include "coarse_sky.hpp"
 #include "folder.hpp"
-#include "renderer.hpp"
+#include "scenes/scenes.hpp"
 #include <lumis/statistics/running_moments.hpp>
 #include <lumis/testing/result.hpp>
 

@@ -40,7 +40,7 @@ class LitPlane : public tracer::SceneParts<tracer::Materials<tracer::Diffuse<flo
         this->geometry_.commit();
     }
 
-    // Of a point of the plane. Lights without extent are left out if nothing finds them.
+    // The radiance of a point of the plane. Lights without extent are left out if nothing finds them.
     [[nodiscard]] static glm::dvec3 radiance(const glm::dvec3& x, const Brightness& of, bool finds_all) {
         constexpr double pi = std::numbers::pi;
         // A disk parallel to the plane (Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-12) hides the sky.

@@ -1,6 +1,6 @@
 // Ranks of MPI render passes into films of their own, and the root merges them: the image must not tell.
 #include "catch.hpp"
-#include "renderer.hpp"
+#include "scenes/scenes.hpp"
 
 #include <cstring>
 

@@ -1,9 +1,8 @@
 // An image depends on the seed alone, its error falls as passes add up, and a scene has what it needs and nothing else.
-#include "renderer.hpp"
-
 #include "catch.hpp"
 #include "folder.hpp"
 #include "paths/camera.hpp"
+#include "scenes/scenes.hpp"
 #include <lumis/statistics/running_moments.hpp>
 
 #include <oneapi/tbb/global_control.h>

@@ -33,8 +33,8 @@ struct Pixel {
     // 0 without samples.
     [[nodiscard]] glm::dvec3 mean() const noexcept { return sum / static_cast<double>(samples > 0 ? samples : 1); }
 
-    // The variance of mean(), unbiased if passes are independent; infinite before the second pass. If a pass of n samples has variance v / n, the
-    // sum over passes of n (mean of the pass - mean)^2 has expectation (passes - 1) v.
+    // The variance of mean(), unbiased if passes are independent; infinite before the second pass. If a pass of n samples has
+    // variance v / n, the sum over passes of n (mean of the pass - mean)^2 has expectation (passes - 1) v.
     [[nodiscard]] glm::dvec3 variance() const noexcept;
 };
 

@@ -19,7 +19,7 @@ struct MeshMaterial {
     float index = 1.5f;
 };
 
-// Where a file's points stand in the scene. Rays leave a surface by a share of its distance from the origin, or of 1: a small
+// The place of a file's points in the scene. Rays leave a surface by a share of its distance from the origin, or of 1: a small
 // mesh is enlarged, and one far from the origin is moved there.
 struct Placement {
     glm::vec3 center{0};

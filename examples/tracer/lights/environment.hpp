@@ -95,7 +95,7 @@ class Environment {
                 of_lanes<R>([&](auto i) { return looked_up[i][2]; })};
     }
 
-    // With the texels beyond each edge that are looked up there.
+    // The map's texels, and around them those that are looked up beyond its edges.
     static std::vector<glm::vec4> padded(const Image& map) {
         std::vector<glm::vec4> result;
         for (int y = -1; y <= map.height; ++y) {

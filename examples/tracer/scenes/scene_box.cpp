@@ -5,8 +5,21 @@
 
 namespace tracer {
 
-std::unique_ptr<Renderer> make_box(const SceneOptions& options) {
+namespace {
+
+std::unique_ptr<Renderer> make(const SceneOptions& options) {
     return std::make_unique<SceneRenderer<Box>>(Box{}, options, Box::camera());
 }
+
+}  // namespace
+
+const SceneEntry scene_box{
+    "box",
+    "A closed room with a known answer",
+    "Every wall emits the same and reflects the same share: the radiance is emission / (1 - albedo) everywhere.",
+    256,
+    256,
+    false,
+    make};
 
 }  // namespace tracer

@@ -5,8 +5,20 @@
 
 namespace tracer {
 
-std::unique_ptr<Renderer> make_many_lights(const SceneOptions& options) {
+namespace {
+
+std::unique_ptr<Renderer> make(const SceneOptions& options) {
     return std::make_unique<SceneRenderer<ManyLightsRoom>>(ManyLightsRoom{}, options, ManyLightsRoom::camera());
 }
+
+}  // namespace
+
+const SceneEntry scene_many_lights{"many-lights",
+                                   "Ten thousand lights",
+                                   "A spiral of small spheres, of which a light tree chooses one for each point.",
+                                   640,
+                                   400,
+                                   false,
+                                   make};
 
 }  // namespace tracer

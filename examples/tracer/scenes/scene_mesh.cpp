@@ -7,7 +7,9 @@
 
 namespace tracer {
 
-std::unique_ptr<Renderer> make_mesh(const SceneOptions& options) {
+namespace {
+
+std::unique_ptr<Renderer> make(const SceneOptions& options) {
     MeshScene scene{options};
     const Camera camera = scene.camera();
     SceneOptions placed = options;
@@ -16,5 +18,12 @@ std::unique_ptr<Renderer> make_mesh(const SceneOptions& options) {
     }
     return std::make_unique<SceneRenderer<MeshScene>>(std::move(scene), placed, camera);
 }
+
+}  // namespace
+
+const SceneEntry scene_mesh{
+    "mesh", "An OBJ file", "Triangles, of which any number may shine; the room shipped, unless a file is named.",
+    480,    360,           true,
+    make};
 
 }  // namespace tracer

@@ -1,22 +1,20 @@
-// The scenes, one in a file of its own each.
+// The scenes, one in a file of its own each. All are in lumis_tracer_scenes; lumis_tracer has those of the report.
 #pragma once
 
 #include "renderer.hpp"
 
-#include <memory>
+#include <span>
+#include <string_view>
 
 namespace tracer {
 
-[[nodiscard]] std::unique_ptr<Renderer> make_veach(const SceneOptions& options);
-[[nodiscard]] std::unique_ptr<Renderer> make_veach_metal(const SceneOptions& options);
-[[nodiscard]] std::unique_ptr<Renderer> make_sky(const SceneOptions& options);
-[[nodiscard]] std::unique_ptr<Renderer> make_cornell(const SceneOptions& options);
-[[nodiscard]] std::unique_ptr<Renderer> make_box(const SceneOptions& options);
-[[nodiscard]] std::unique_ptr<Renderer> make_furnace(const SceneOptions& options);
-[[nodiscard]] std::unique_ptr<Renderer> make_glass(const SceneOptions& options);
-[[nodiscard]] std::unique_ptr<Renderer> make_slab(const SceneOptions& options);
-[[nodiscard]] std::unique_ptr<Renderer> make_many_lights(const SceneOptions& options);
-[[nodiscard]] std::unique_ptr<Renderer> make_sundial(const SceneOptions& options);
-[[nodiscard]] std::unique_ptr<Renderer> make_mesh(const SceneOptions& options);
+extern const SceneEntry scene_veach, scene_sky, scene_cornell, scene_veach_metal, scene_box, scene_furnace, scene_glass,
+    scene_slab, scene_many_lights, scene_sundial, scene_mesh;
+
+// All of them.
+[[nodiscard]] std::span<const SceneEntry> scenes();
+
+// nullptr if there is none of that name.
+[[nodiscard]] const SceneEntry* find_scene(std::string_view name);
 
 }  // namespace tracer

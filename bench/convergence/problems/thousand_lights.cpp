@@ -121,7 +121,7 @@ struct Scene {
     return lumis::DiscreteTable<double>{given};
 }
 
-Problem many_lights() {
+Problem thousand_lights() {
     const auto scene = std::make_shared<const Scene>();
     Problem problem{"lights", "A thousand lights",
                     "Small balls of radiances over three decades, at distances from 2 to 20, four in ten of them "
@@ -165,6 +165,6 @@ Problem many_lights() {
                     }));
     return problem;
 }
-const Registered thousand{"many-lights", many_lights};
+const Registered thousand{"thousand-lights", thousand_lights};
 
 }  // namespace
