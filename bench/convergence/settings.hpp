@@ -11,7 +11,7 @@ namespace convergence {
 struct Settings {
     std::filesystem::path output = "report";
     std::vector<std::uint64_t> seeds;
-    double seconds = 0.3;
+    double seconds = 0.25;
     int width = 240;
     int reference_samples = 128;
     int threads = 1;
