@@ -15,6 +15,7 @@
 #include <cmath>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -161,6 +162,30 @@ TEST_CASE("a plane receives of every light what its shape says") {
     const Brightness of{.sky = white, .sun = reddish, .disk = 4.0f * white, .beam = bluish, .points{bluish, reddish}};
     require_lit_plane<SunAndSky<Environment>>(of, 128, false, bsdf_and_rest.first(1));
     require_lit_plane<SunAndSky<Environment>>(of, 64, true, bsdf_and_rest.subspan(1));
+}
+
+// Nothing is absorbed in the open: not of light from the sky, infinitely far away. A light tree's densities are those that its
+// lights are drawn with.
+TEST_CASE("direct light by both techniques is that of light sampling alone") {
+    const auto [scene, samples] = GENERATE(std::pair{"glass", 192}, std::pair{"many-lights", 528});
+    CAPTURE(scene);
+    const auto renderer = find_scene(scene)->make({width, height, {}});
+    const auto total = [&, n = samples](std::string_view integrator, std::uint64_t first_seed) {
+        Film film{width, height};
+        for (std::uint64_t pass = 0; pass < 8; ++pass) {
+            renderer->add_pass(film, integrator, {1}, {0, n}, first_seed + pass);
+        }
+        Total whole;  // of the lower half: in the upper one lights are seen, small and bright
+        for (std::size_t i = film.pixels.size() / 2; i < film.pixels.size(); ++i) whole.add(film.pixels[i], {});
+        return whole;
+    };
+    const Total by_both = total("balance", 1), by_light = total("light", 9);
+    const double limit = limit_of(2 * 3);
+    for (int k = 0; k < 3; ++k) {
+        const double error = std::sqrt(by_both.variance[k] + by_light.variance[k]);
+        CHECK(std::abs(by_both.value[k] - by_light.value[k]) <= limit * error);
+        CHECK(limit * error <= visible_bias * by_both.value[k]);
+    }
 }
 
 // Sobol points of a sample do not depend on how many are traced at once. Rays that pass an edge by a rounding may differ.
